@@ -26,6 +26,7 @@ SOURCES: Final = (
     "entry/bare_loop.f90",
     "entry/linear_elements.f90",
     "entry/scatter_map.f90",
+    "entry/contact.f90",
 )
 """As in meson.build."""
 

@@ -29,7 +29,8 @@ from uel.model.contact import STIFFENED, STIFFENING, ContactChanges, ContactPair
 from uel.model.dofs import MULTIPLIER
 from uel.model.model import Model
 from uel.model.restart import Saved
-from uel.usersub import _binding
+from uel.usersub import _binding, _contact
+from uel.usersub._contact import SparseValues
 
 OPEN, STICKING, SLIPPING = 0, 1, 2
 """Status of a point; without friction a closed one counts as sticking."""
@@ -75,6 +76,9 @@ class ContactBlock(Contributor):
         self._penetration = self._force = self._stiffness = np.zeros(m)
         self._equations = self._own_positions = np.zeros((m, 0), dtype=np.int32)
         self._find: Find | None = None
+        # nodes of the points and of their slips when they were numbered
+        self._numbered: tuple[IntArray | None, IntArray | None] = None, None
+        self._slip_equations = self._equations
         self._multipliers = np.zeros(m, dtype=np.int32)
         self._pattern = (self._equations, self._equations)
 
@@ -91,19 +95,26 @@ class ContactBlock(Contributor):
     def number(self, find: Find, equations: NDArray[np.int32]) -> None:
         """Set the numbers of the unknowns, of which the last is the multiplier of a point, if it has one."""
         self._find, self._multipliers = find, equations[:, -1]
-        self._equations = self._equations_of(self.rows, self._motion.nodes)
+        self._number()
+
+    def _number(self) -> None:
+        """Set the unknowns of the points and of their slips for their current nodes."""
+        nodes, slip_nodes = self._motion.nodes, self._motion.slip_nodes
+        if self._numbered[0] is not nodes:
+            self._equations = self._equations_of(self.rows, nodes)
+        if slip_nodes is nodes:
+            self._slip_equations = self._equations[:, : self._equations.shape[1] - self.direct]
+        elif self._numbered[1] is not slip_nodes:
+            self._slip_equations = self._unknowns_of(slip_nodes)
+        self._numbered = nodes, slip_nodes
 
     def track(self, now: CurrentPass) -> bool:
         """Project the contact points before a pass; return whether the matrix, if any, has the entries for them."""
         assert self._find is not None
         if not now.has_forces:
             return True
-        nodes = self._motion.nodes
         self._motion.track(now.u, now.du, self._find, first=now.call.iteration == 0)
-        if self._motion.nodes is not nodes:
-            self._equations = self._equations_of(self.rows, self._motion.nodes)
-            if self._motion.known:
-                self.locate(*self._pattern)
+        self._number()
         if self._motion.known or now.data is None:
             return True
         self._motion.reach()
@@ -114,10 +125,14 @@ class ContactBlock(Contributor):
         return self._equations_of(*self._motion.links())
 
     def _equations_of(self, points: IntArray, nodes: IntArray) -> NDArray[np.int32]:
+        multipliers = [self._multipliers[points, None]] if self.direct else []
+        return np.concatenate([self._unknowns_of(nodes), *multipliers], axis=1)
+
+    def _unknowns_of(self, nodes: IntArray) -> NDArray[np.int32]:
+        """Return the unknowns (r, u) of the nodes (r, n) of points."""
         assert self._find is not None
         columns = [self._find(nodes[:, local], dof) for local, dof in self._motion.unknowns_of(nodes.shape[1])]
-        multipliers = [self._multipliers[points].astype(np.int64)] if self.direct else []
-        return np.stack([*columns, *multipliers], axis=1).astype(np.int32)
+        return np.stack(columns, axis=1).astype(np.int32)
 
     def locate(self, indptr: NDArray[np.int32], indices: NDArray[np.int32]) -> None:
         """Set the CSR pattern of the matrix."""
@@ -158,14 +173,18 @@ class ContactBlock(Contributor):
         slips = self._motion.slips(displacement, change, self._slip)
         sticks = np.ones(len(force)) if self._bonds is None else self._bonds.damage
         friction = Friction(self.pair, force, np.where(closed[:, None], slips.value, 0.0), closed, sticks, small)
-        self._add(residual, data, (clearances, slips), (multiplier, force, closed), friction)
-        normal, shear = force, friction.force
+        matrix = None if data is None else SparseValues(*self._pattern, data)
+        self._add(residual, matrix, (clearances, slips), (multiplier, force, closed), friction)
+        normal, shear, loaded = force, friction.force, closed
         if self._bonds is not None:
             since = self._motion.slips(displacement, change, self._bonds.slip)
             pulled = self._bonds.bonded & self._motion.above & (~closed if self.direct else clearance >= 0.0)
             bonding = self._bonds.respond(call.time_increment, clearance, since, self._motion.areas, pulled)
-            self._add_bonds(residual, data, clearances, bonding)
-            normal, shear = normal - bonding.normal, shear + bonding.shear
+            self._add_bonds(residual, matrix, clearances, bonding)
+            normal, shear, loaded = normal - bonding.normal, shear + bonding.shear, closed | self._bonds.bonded
+        if matrix is not None:
+            points = np.flatnonzero(loaded & self._motion.above)
+            self._motion.add_stiffness(points, normal[points], shear[points], self._equations[points, :count], matrix)
         if call.flags.request is Request.NORMAL:
             after = np.where(closed, np.where(friction.slips, SLIPPING, STICKING), OPEN)
             self._status_trial = before if call.iteration == 0 else after
@@ -209,7 +228,7 @@ class ContactBlock(Contributor):
     def _add(
         self,
         residual: FloatArray,
-        data: FloatArray | None,
+        matrix: SparseValues | None,
         motion: tuple[Clearances, Slips],
         state: tuple[FloatArray, FloatArray, NDArray[np.bool_]],
         friction: Friction,
@@ -225,32 +244,28 @@ class ContactBlock(Contributor):
         if self.direct:
             forces[:, count] = np.where(closed, scale * clearances.value, -multiplier)
         np.add.at(residual, self._equations, forces)
-        if data is None:
+        if matrix is None:
             return
         if self.direct:
-            data[self._own_positions[~closed, -1, -1]] += scale
+            matrix.values[self._own_positions[~closed, -1, -1]] += scale
         # open points have no other entries
         points = np.flatnonzero(closed)
-        equations = self._equations[points]
-        matrix = np.zeros((len(points), equations.shape[1], equations.shape[1]))
-        along, by_slip = tangents[points], friction.by_slip[points]
-        matrix[:, :count, :count] = np.einsum("mtu,mts,msv->muv", along, by_slip, slips.by[points])
-        if slips.stiffness_of is not None:
-            matrix[:, :count, :count] += slips.stiffness_of(points, friction.force[points])
-        if clearances.curvature is not None:
-            matrix[:, :count, :count] -= clearances.curvature(points, force[points])
+        along, unknowns = tangents[points], self._equations[points, :count]
+        by_slip = np.einsum("mts,msv->mtv", friction.by_slip[points], slips.by[points])
+        _contact.add_products(along, unknowns, by_slip, self._slip_equations[points], matrix)
         # derivative of the nodal forces by the contact force
-        by_force = np.einsum("mt,mtu->mu", friction.by_force[points], along) - conjugate[points]
+        by_force = (np.einsum("mt,mtu->mu", friction.by_force[points], along) - conjugate[points])[:, None]
+        by_motion = -normal[points, None]
         if self.direct:
-            matrix[:, :count, count] = scale * by_force
-            matrix[:, count, :count] = -scale * normal[points]
+            multipliers, factor = self._equations[points, count:], np.full((len(points), 1, 1), scale)
+            _contact.add_products(by_force, unknowns, factor, multipliers, matrix)
+            _contact.add_products(factor, multipliers, by_motion, unknowns, matrix)
         else:
-            stiffness = self._stiffness[points, None, None]
-            matrix -= stiffness * by_force[:, :, None] * normal[points, None]
-        np.add.at(data, _binding.scatter_map(equations, *self._pattern), matrix)
+            by_force *= self._stiffness[points, None, None]
+            _contact.add_products(by_force, unknowns, by_motion, unknowns, matrix)
 
     def _add_bonds(
-        self, residual: FloatArray, data: FloatArray | None, clearances: Clearances, bonding: Bonding
+        self, residual: FloatArray, matrix: SparseValues | None, clearances: Clearances, bonding: Bonding
     ) -> None:
         """Add the contributions of bonds."""
         assert self._bonds is not None
@@ -260,15 +275,12 @@ class ContactBlock(Contributor):
         forces = np.concatenate([normal[:, None], shear], axis=1)
         equations = self._equations[points, : directions.shape[2]]
         np.add.at(residual, equations, -np.einsum("mt,mtu->mu", forces, directions))
-        if data is None:
+        if matrix is None:
             return
-        change = np.concatenate([clearances.gradient[points, None], slips.by[points]], axis=1)
-        matrix = np.einsum("mtu,mts,msv->muv", directions, bonding.by[points], change)
-        if slips.stiffness_of is not None:
-            matrix += slips.stiffness_of(points, shear)
-        if clearances.curvature is not None:
-            matrix += clearances.curvature(points, normal)
-        np.add.at(data, _binding.scatter_map(equations, *self._pattern), matrix)
+        by_motion = bonding.by[points, :, :1] * clearances.gradient[points, None]
+        by_slip = np.einsum("mts,msv->mtv", bonding.by[points, :, 1:], slips.by[points])
+        _contact.add_products(directions, equations, by_motion, equations, matrix)
+        _contact.add_products(directions, equations, by_slip, self._slip_equations[points], matrix)
 
     def _changes(self) -> ContactChanges:
         """Return the status changes in the last iteration, and the constraint errors at its end."""
@@ -322,5 +334,5 @@ class ContactBlock(Contributor):
         self._motion.resume(saved["motion"])
         if self._bonds is not None:
             self._bonds.resume(saved["bonds"])
-        self._equations = self._equations_of(self.rows, self._motion.nodes)
+        self._number()
         self._status_trial, self._slip_trial = self._status, self._slip

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Main surfaces of element faces: the search for the nearest piece, and motions by the unknowns.
 
-`projection` has the closest point projection onto a piece.
+fortran/host/contact has the search and the closest point projection onto a piece.
 """
 
 from __future__ import annotations
@@ -13,10 +13,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from uel.contact.main_surface import EQUAL, SurfacePoints
-from uel.contact.projection import CurrentPieces, evaluate, inside, polynomials_of, project, sizes_of
 from uel.contact.shape_functions import weights_of
 from uel.model.arrays import FloatArray, IntArray
 from uel.model.contact import Pieces
+from uel.usersub import _contact
+from uel.usersub._contact import Hits
 
 NEAREST: Final = 4
 """Nearest main nodes whose pieces are tried in a global search."""
@@ -32,7 +33,6 @@ class FaceSurface:
         """Prepare the surface; coordinates: (nodes, d) of all nodes; facing: as in `ProjectedPoints`."""
         dimension = coordinates.shape[1]
         self.pieces, self._coordinates, self._dimension, self._facing = pieces, coordinates, dimension, facing
-        self._along = pieces.low.shape[1]
         self.dofs = tuple(range(1, dimension + 1))
         self.unknowns = tuple((node, dof) for node in range(1, 1 + pieces.nodes.shape[1]) for dof in self.dofs)
         self._nodes = np.unique(pieces.nodes)
@@ -54,13 +54,11 @@ class FaceSurface:
 
     def at(self, piece: IntArray, natural: FloatArray, u: FloatArray) -> SurfacePoints:
         """Return points of pieces, see `Surface.at`."""
-        nodes = self.pieces.nodes[piece]
-        return evaluate(polynomials_of(self.pieces.shapes[piece], self._coordinates[nodes] + u[nodes]), natural)
+        return SurfacePoints(*_contact.feet(self.pieces, self._coordinates + u, piece, natural))
 
     def sizes(self, piece: IntArray, u: FloatArray) -> FloatArray:
         """Return the sizes of pieces, see `Surface.sizes`: largest distances of nodes from their middle."""
-        nodes = self.pieces.nodes[piece]
-        return sizes_of(self._coordinates[nodes] + u[nodes])
+        return _contact.sizes(self.pieces.nodes[piece], self._coordinates + u)
 
     def by_unknowns(self, piece: IntArray, natural: FloatArray, u: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the derivatives of points and tangents, see `Surface.by_unknowns`."""
@@ -76,7 +74,7 @@ class FaceSurface:
 
     def _spread(self, shapes: FloatArray, natural: FloatArray) -> tuple[FloatArray, FloatArray]:
         m, dimension, eye = len(natural), self._dimension, np.eye(self._dimension)
-        values, first, _ = weights_of(shapes, natural)
+        values, first = weights_of(shapes, natural)
         unknowns = shapes.shape[1] * dimension
         at = np.einsum("mk,de->mdke", values, eye).reshape(m, dimension, unknowns)
         return at, np.einsum("mka,de->madke", first, eye).reshape(m, first.shape[2], dimension, unknowns)
@@ -85,37 +83,37 @@ class FaceSurface:
         self, points: FloatArray, outward: FloatArray, u: FloatArray, before: IntArray, *, everywhere: bool
     ) -> tuple[IntArray, FloatArray, NDArray[np.bool_]]:
         """Find the nearest pieces, see `Surface.track`."""
-        current, nearest_piece = CurrentPieces.of(self.pieces, self._coordinates + u), before.copy()
-        if everywhere:
-            positions = self._coordinates[self._nodes] + u[self._nodes]
-            from scipy.spatial import KDTree  # noqa: PLC0415 (takes 0.1 s, and few decks have contact)
+        near = self.near(points, u) if everywhere else np.zeros((len(points), 0), dtype=np.int64)
+        hits = self.search(points, outward, u, before, near)
+        return hits.piece, hits.natural, hits.above
 
-            _, near = KDTree(positions).query(points, k=min(NEAREST, len(positions)))
-            count = near.size // max(len(points), 1)
-            near = self._of_node[near.reshape(len(points), count)]
-            near = near.reshape(len(points), count * near.shape[2])
-            nearest_piece = self._nearest(current, points, outward, np.concatenate([before[:, None], near], axis=1))[0]
-        natural, above = np.zeros((len(points), self._along)), np.zeros(len(points), dtype=np.bool_)
-        rows = np.arange(len(points))
-        for _ in range(WALK):
-            last = nearest_piece[rows]
-            candidates = np.concatenate([last[:, None], self.pieces.ring[last]], axis=1)
-            nearest = self._nearest(current, points[rows], outward[rows], candidates)
-            nearest_piece[rows], natural[rows], above[rows] = nearest
-            rows = rows[nearest[0] != last]
-            if not len(rows):
-                break
-        return nearest_piece, natural, above
+    def near(self, points: FloatArray, u: FloatArray) -> IntArray:
+        """Return (m, c) pieces of the nodes nearest to points (m, d), among which the search starts."""
+        from scipy.spatial import KDTree  # noqa: PLC0415 (takes 0.1 s, and few decks have contact)
 
-    def distances(self, points: FloatArray, u: FloatArray) -> FloatArray:
-        """Return the distances (m,) of points (m, d) from the nearest piece, whatever its normal."""
-        before, outward = np.zeros(len(points), dtype=np.int64), np.zeros_like(points)
-        piece, natural, _ = self.track(points, outward, u, before, everywhere=True)
-        return np.asarray(np.linalg.norm(points - self.at(piece, inside(self.pieces, piece, natural), u).at, axis=1))
+        positions = self._coordinates[self._nodes] + u[self._nodes]
+        _, nodes = KDTree(positions).query(points, k=min(NEAREST, len(positions)))
+        near = self._of_node[nodes.reshape(len(points), nodes.size // max(len(points), 1))]
+        return np.asarray(near.reshape(len(points), near.shape[1] * near.shape[2]))
+
+    def search(self, points: FloatArray, outward: FloatArray, u: FloatArray, before: IntArray, near: IntArray) -> Hits:
+        """Find the nearest pieces as `track` does, at first among those of `near` (m, c), if there are any."""
+        positions = self._coordinates + u
+        return _contact.search(self.pieces, positions, self._facing, (points, outward), before, near, WALK)
+
+    def distances(self, points: FloatArray, u: FloatArray, near: IntArray) -> FloatArray:
+        """Return the distances (m,) of points (m, d) from the nearest piece, whatever its normal; near: as `near`
+        returns it.
+        """
+        return self.search(points, np.zeros_like(points), u, np.zeros(len(points), dtype=np.int64), near).distance
 
     def locate(self, piece: IntArray, points: FloatArray) -> FloatArray:
         """Return natural coordinates (m, a) of points (m, d) on pieces (m,), extended, before any displacement."""
-        return project(self.pieces, CurrentPieces.of(self.pieces, self._coordinates), piece, points)
+        outward = np.zeros_like(points)
+        hits = _contact.search(
+            self.pieces, self._coordinates, self._facing, (points, outward), piece, piece[:, None], 0
+        )
+        return hits.natural
 
     def nearest(self, points: FloatArray) -> tuple[IntArray, FloatArray]:
         """Return the nodes (m, k) of the pieces nearest to points (m, d), undeformed, and their shape functions
@@ -123,50 +121,7 @@ class FaceSurface:
         """
         zero = np.zeros_like(self._coordinates)
         before = np.zeros(len(points), dtype=np.int64)
-        piece, natural, _ = self.track(points, np.zeros_like(points), zero, before, everywhere=True)
-        factors = weights_of(self.pieces.shapes[piece], inside(self.pieces, piece, natural))[0]
+        hits = self.search(points, np.zeros_like(points), zero, before, self.near(points, zero))
+        factors = weights_of(self.pieces.shapes[hits.piece], hits.within)[0]
         factors = np.where(np.abs(factors) <= EQUAL, 0.0, factors)
-        return self.nodes_of(piece), factors / factors.sum(axis=1, keepdims=True)
-
-    def _nearest(
-        self, current: CurrentPieces, points: FloatArray, outward: FloatArray, candidates: IntArray
-    ) -> tuple[IntArray, FloatArray, NDArray[np.bool_]]:
-        """Find the nearest piece of candidates (m, c), as in `track`; the first of equally near ones.
-
-        The piece with the nearest box is tried first, others only if their boxes are not farther than this piece.
-        """
-        pieces, rows = self.pieces, np.arange(len(candidates))
-        least = current.least(points, outward, candidates, self._facing)
-        first = least.argmin(axis=1)
-        distance, natural = np.full(least.shape, np.inf), np.zeros((*least.shape, self._along))
-        closest, natural[rows, first] = self._reach(current, points, outward, candidates[rows, first])
-        distance[rows, first] = closest
-        margin = EQUAL * current.sizes[candidates]
-        # twice the margin, for rounding
-        near = np.isfinite(least) & (least <= closest[:, None] + 2.0 * margin)
-        # no candidate faces the point: the first one
-        near[:, 0] |= np.isinf(closest)
-        row, column = np.nonzero(near & (candidates != candidates[rows, first][:, None]))
-        # candidates may be repeated
-        total = len(pieces.nodes)
-        pairs, pair_of = np.unique(row * total + candidates[row, column], return_inverse=True)
-        others, other = pairs // total, pairs % total
-        distances, naturals = self._reach(current, points[others], outward[others], other)
-        distance[row, column], natural[row, column] = distances[pair_of], naturals[pair_of]
-        chosen = np.argmax(distance <= distance.min(axis=1, keepdims=True) + margin, axis=1)
-        piece, xi = candidates[rows, chosen], natural[rows, chosen]
-        above = (xi >= pieces.reach_low[piece] - EQUAL).all(axis=1)
-        above &= (xi <= pieces.reach_high[piece] + EQUAL).all(axis=1)
-        above &= (xi.sum(axis=1) <= pieces.reach_total[piece] + EQUAL) & np.isfinite(distance[rows, chosen])
-        return piece, xi, above
-
-    def _reach(
-        self, current: CurrentPieces, points: FloatArray, outward: FloatArray, piece: IntArray
-    ) -> tuple[FloatArray, FloatArray]:
-        """Return distances (m,) from pieces (m,), infinite if these do not face the point; natural coordinates (m,
-        a).
-        """
-        natural = project(self.pieces, current, piece, points)
-        point = current.at(piece, inside(self.pieces, piece, natural))
-        away = np.einsum("md,md->m", point.normal, outward) > np.where(outward.any(axis=1), self._facing, np.inf)
-        return np.where(away, np.inf, np.linalg.norm(points - point.at, axis=1)), natural
+        return self.nodes_of(hits.piece), factors / factors.sum(axis=1, keepdims=True)

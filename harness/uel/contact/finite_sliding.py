@@ -2,13 +2,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Motion of contact points in finite sliding: over the current main surface, from one piece to the next.
 
-The foot point X of a node x is its closest point projection on the surface: x - X = g n. With W the motion of the node
-relative to the foot point, tau the tangents, and G = d tau / du at fixed natural coordinates xi,
-
-    dg = n W du,    (tau_a tau_b - g n tau_ab) dxi_b = tau_a W du + g n G_a du,
-    dn = -tau^a (n G_a du + n tau_ab dxi_b)
-
-(P. Wriggers, Computational Contact Mechanics, 2nd edition (2006), chapter 4). The weights of forces on the nodes of the
+The foot point X of a node x is its closest point projection on the surface: x - X = g n, so that dg = n W du with the
+motion W du of the node relative to the foot point; fortran/host/contact/derivatives.f90 has the derivatives of foot
+point and normal. The weights of forces on the nodes of the
 piece differ from W where the surface is smoothed. The slip of an increment is the motion of the node relative to its
 final foot point. It is computed in the configuration at the start of the increment, where the elastic slip rotates with
 the normal, and is convected with the surface: bodies that move together do not slip.
@@ -27,8 +23,10 @@ from uel.contact.main_surface import EQUAL, Surface, SurfacePoints
 from uel.contact.rigid_surface import RigidSurface
 from uel.elements.contributor import Find
 from uel.model.arrays import FloatArray, IntArray
-from uel.model.contact import Pieces, RigidProfile, SlidingPair
+from uel.model.contact import RigidProfile, SlidingPair
 from uel.model.restart import Saved
+from uel.usersub import _contact
+from uel.usersub.exchange import Int32Array
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,45 +35,38 @@ class Projection:
 
     foot             foot points
     value            (p,) clearances
-    relative         (p, d, u) motions relative to the foot points at fixed natural coordinates
+    gradient         (p, u) of the clearances
     tangents_by      (p, a, d, u) derivatives of the tangents
     conjugate        (p, d, u) motions conjugate to forces
     conjugate_along  (p, a, d, u) their derivatives along the surface, apart from the sign
     conjugate_by     (p, d, u, u) their derivatives by the unknowns, apart from the sign; None: zero
     natural_by       (p, a, u) derivatives of the natural coordinates
+    tilt             (p, a, u) components along the tangents of the derivatives of the normals, apart from the sign
     """
 
     foot: SurfacePoints
     value: FloatArray
-    relative: FloatArray
+    gradient: FloatArray
     tangents_by: FloatArray
     conjugate: FloatArray
     conjugate_along: FloatArray
     conjugate_by: FloatArray | None
     natural_by: FloatArray
+    tilt: FloatArray
 
-    @property
-    def gradient(self) -> FloatArray:
-        """Gradients (p, u) of the clearances."""
-        return np.asarray(np.einsum("md,mdu->mu", self.foot.normal, self.relative))
-
-    def force_stiffness(self, points: IntArray, forces: FloatArray) -> FloatArray:
-        """Return the derivatives (r, u, u) of the nodal forces of forces (r, d) on points (r,)."""
-        along = np.einsum("md,madu->mau", forces, self.conjugate_along[points])
-        stiffness = -np.einsum("mau,mav->muv", along, self.natural_by[points])
+    def stiffness(self, points: IntArray, normal: FloatArray, friction: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return factors (r, k, u) whose products are the derivatives of nodal forces, see `Motion.add_stiffness`."""
+        force = normal[:, None] * self.foot.normal[points] - friction
+        turned = normal[:, None, None] * self.foot.tangents[points]
+        left = [
+            np.einsum("md,madu->mau", force, self.conjugate_along[points]),
+            np.einsum("mad,mdu->mau", turned, self.conjugate[points]),
+        ]
+        right = [self.natural_by[points], self.tilt[points]]
         if self.conjugate_by is not None:
-            stiffness -= np.einsum("md,mduv->muv", forces, self.conjugate_by[points])
-        return np.asarray(stiffness)
-
-    def curvature(self, points: IntArray, force: FloatArray) -> FloatArray:
-        """Return the derivatives (r, u, u) of the nodal forces of contact forces (r,) along the normals."""
-        foot = self.foot.take(points)
-        normal_part = np.einsum("md,madu->mau", foot.normal, self.tangents_by[points])
-        bent = np.einsum("md,mabd->mab", foot.normal, foot.second)
-        tilt = np.linalg.solve(foot.metric, normal_part + np.einsum("mab,mbu->mau", bent, self.natural_by[points]))
-        tilted = np.einsum("mad,mau->mdu", foot.tangents, tilt)
-        along = np.einsum("mdu,mdv->muv", self.conjugate[points], tilted)
-        return np.asarray(self.force_stiffness(points, force[:, None] * foot.normal) - force[:, None, None] * along)
+            left.append(np.einsum("md,mduv->mvu", force, self.conjugate_by[points]))
+            right.append(np.broadcast_to(np.eye(left[-1].shape[2]), left[-1].shape))
+        return np.concatenate(left, axis=1), np.concatenate(right, axis=1)
 
 
 class ProjectedPoints:
@@ -85,19 +76,10 @@ class ProjectedPoints:
     piece, natural, above  of each point, as `Surface.track` returns them
     """
 
-    def __init__(
-        self, main: Pieces | RigidProfile, coordinates: FloatArray, nodes: IntArray, shapes: FloatArray, facing: float
-    ) -> None:
-        """Prepare points with nodes (p, k) and shape functions (p, k).
-
-        coordinates: (n, d) of all nodes; facing: largest cosine between the normals of a point and of its piece.
-        """
-        self.surface: Surface
-        if isinstance(main, RigidProfile):
-            self.surface = RigidSurface(main, coordinates)
-        else:
-            self.surface = FaceSurface(main, coordinates, facing)
-        self._coordinates, self._nodes, self._shapes = coordinates, nodes, shapes
+    def __init__(self, surface: Surface, coordinates: FloatArray, nodes: IntArray, shapes: FloatArray) -> None:
+        """Prepare points with nodes (p, k) and shape functions (p, k); coordinates: (n, d) of all nodes."""
+        self.surface, self.shapes = surface, shapes
+        self._coordinates, self._nodes = coordinates, nodes
         count, dimension = len(nodes), coordinates.shape[1]
         self.piece, self.natural = np.zeros(count, dtype=np.int64), np.zeros((count, dimension - 1))
         self.above = np.zeros(count, dtype=np.bool_)
@@ -106,7 +88,7 @@ class ProjectedPoints:
         """Return (p, d) current coordinates of the points at displacements (n, dofs)."""
         dimension = self._coordinates.shape[1]
         positions = self._coordinates[self._nodes] + u[self._nodes, :dimension]
-        return np.asarray(np.einsum("pk,pkd->pd", self._shapes, positions))
+        return np.asarray(np.einsum("pk,pkd->pd", self.shapes, positions))
 
     def search(self, u: FloatArray, outward: FloatArray, *, everywhere: bool) -> None:
         """Project the points; outward: (p, d) outward normals at the points."""
@@ -128,40 +110,34 @@ class ProjectedPoints:
         along = np.einsum("md,md->m", gap, foot.normal)
         return np.asarray(np.where(self.above, along, np.linalg.norm(gap, axis=1)))
 
-    def project(self, u: FloatArray, chosen: IntArray) -> Projection:
-        """Return the projections of some points, with derivatives."""
-        arguments = self.piece[chosen], self.natural[chosen], u
+    def project(self, u: FloatArray) -> Projection:
+        """Return the projections with derivatives."""
+        arguments = self.piece, self.natural, u
         foot = self.surface.at(*arguments)
         at, tangents = self.surface.by_unknowns(*arguments)
         loaded, conjugate_along, conjugate_by = self.surface.loaded(*arguments)
         m, dimension, _ = at.shape
-        secondary = np.einsum("pk,de->pdke", self._shapes[chosen], np.eye(dimension))
-        secondary = secondary.reshape(m, dimension, secondary.shape[2] * dimension)
-        zeros = np.zeros((m, dimension - 1, *secondary.shape[1:]))
-        relative = np.concatenate([secondary, -at], axis=2)
+        own = np.einsum("pk,de->pdke", self.shapes, np.eye(dimension))
+        own = own.reshape(m, dimension, own.shape[2] * dimension)
+        first = own.shape[2]
+        relative = np.concatenate([own, -at], axis=2)
+        zeros = np.zeros((m, dimension - 1, *own.shape[1:]))
         tangents_by = np.concatenate([zeros, tangents], axis=3)
-        value, above = self.values(u)[chosen], self.above[chosen]
-        gap = np.where(above, value, 0.0)
+        value = self.values(u)
+        along = np.einsum("mad,mdu->mau", foot.tangents, relative)
         across = np.einsum("md,madu->mau", foot.normal, tangents_by)
-        bent = np.einsum("md,mabd->mab", foot.normal, foot.second)
-        metric = foot.metric
-        right = np.einsum("mad,mdu->mau", foot.tangents, relative) + gap[:, None, None] * across
-        matrix = metric - gap[:, None, None] * bent
-        # the projection from the centre of a circle is not unique
-        singular = np.abs(np.linalg.det(matrix)) <= EQUAL * np.linalg.det(metric)
-        natural_by = np.linalg.solve(np.where(singular[:, None, None], metric, matrix), right)
+        gap = np.where(self.above, value, 0.0)
         if conjugate_by is not None:
-            first = secondary.shape[2]
             conjugate_by = np.pad(conjugate_by, ((0, 0), (0, 0), (first, 0), (first, 0)))
         return Projection(
             foot,
             value,
-            relative,
+            np.einsum("md,mdu->mu", foot.normal, relative),
             tangents_by,
-            np.concatenate([secondary, -loaded], axis=2),
+            np.concatenate([own, -loaded], axis=2),
             np.concatenate([zeros, conjugate_along], axis=3),
             conjugate_by,
-            natural_by,
+            *_contact.derivatives(foot.tangents, foot.second, gap, along, across),
         )
 
 
@@ -170,25 +146,27 @@ class FiniteSliding:
 
     def __init__(self, pair: SlidingPair, coordinates: FloatArray, facing: float = EQUAL) -> None:
         """Prepare the points; coordinates (nodes, 3) are those of all nodes of the model; facing: as in
-        `ProjectedPoints`.
+        `FaceSurface`.
         """
         dimension, m = pair.dimension, len(pair.secondary)
         self._pair, self._dimension = pair, dimension
         self._coordinates = coordinates[:, :dimension]
-        self._projected = ProjectedPoints(
-            pair.main, self._coordinates, pair.secondary[:, None], np.ones((m, 1)), facing
-        )
-        self._surface = self._projected.surface
-        self._unknowns = tuple((0, dof) for dof in range(1, dimension + 1)) + self._surface.unknowns
+        self.surface: Surface
+        if isinstance(pair.main, RigidProfile):
+            self.surface = RigidSurface(pair.main, self._coordinates)
+        else:
+            self.surface = FaceSurface(pair.main, self._coordinates, facing)
+        self._projected = ProjectedPoints(self.surface, self._coordinates, pair.secondary[:, None], np.ones((m, 1)))
+        self._unknowns = tuple((0, dof) for dof in range(1, dimension + 1)) + self.surface.unknowns
         self.components, self.areas = dimension, pair.areas
-        self._numbers: IntArray | None = None
-        zero = np.zeros((len(coordinates), len(self._surface.dofs)))
+        self.numbers = np.zeros((0, 0), dtype=np.int64)
+        zero = np.zeros((len(coordinates), len(self.surface.dofs)))
         self._moved = self._moved_before = zero
         self._outward = self._secondary_normals(zero)
         self._projected.search(zero, self._outward, everywhere=True)
         self._reachable = self._projected.piece
         self.nodes = self._projected.nodes_of()
-        start, size = self._projected.values(zero), self._surface.sizes(self._projected.piece, zero)
+        start, size = self._projected.values(zero), self.surface.sizes(self._projected.piece, zero)
         self._clearance = np.where(np.abs(start) <= EQUAL * size, 0.0, start)
         self._normal = self._normal_before = self._projected.foot(zero).normal
 
@@ -196,6 +174,11 @@ class FiniteSliding:
     def above(self) -> NDArray[np.bool_]:
         """Mask (m,) of the points that face the main surface."""
         return self._projected.above
+
+    @property
+    def slip_nodes(self) -> IntArray:
+        """Nodes (m, k) on which the slip of each point depends: all of its nodes."""
+        return self.nodes
 
     def unknowns_of(self, count: int) -> tuple[tuple[int, int], ...]:
         """Return the unknowns of a point: those of the secondary node and of the main surface."""
@@ -230,9 +213,9 @@ class FiniteSliding:
         """Project the points: in the first pass of an increment onto the entire surface, then near the current
         pieces.
         """
-        if self._numbers is None:
-            self._numbers = find(np.arange(len(self._coordinates))[:, None], np.array(self._surface.dofs))
-        self._moved, self._moved_before = (np.append(values, 0.0)[self._numbers] for values in (u, u - du))
+        if not self.numbers.size:
+            self.numbers = find(np.arange(len(self._coordinates))[:, None], np.array(self.surface.dofs))
+        self._moved, self._moved_before = (np.append(values, 0.0)[self.numbers] for values in (u, u - du))
         if first:
             self._outward = self._secondary_normals(self._moved)
         piece = self._projected.piece
@@ -248,7 +231,7 @@ class FiniteSliding:
     @property
     def known(self) -> bool:
         """Whether `links` has the nodes of the current pieces."""
-        ring = self._surface.ring_of(self._reachable)
+        ring = self.surface.ring_of(self._reachable)
         return bool((ring == self._projected.piece[:, None]).any(axis=1).all())
 
     def reach(self) -> None:
@@ -257,9 +240,9 @@ class FiniteSliding:
 
     def links(self) -> tuple[IntArray, IntArray]:
         """Return points with the nodes of their pieces at the last `reach`, and of neighbouring pieces."""
-        ring = self._surface.ring_of(self._reachable)
+        ring = self.surface.ring_of(self._reachable)
         m, count = ring.shape
-        nodes = self._surface.nodes_of(ring.ravel())
+        nodes = self.surface.nodes_of(ring.ravel())
         return np.repeat(np.arange(m), count), np.concatenate(
             [np.repeat(self._pair.secondary, count)[:, None], nodes], axis=1
         )
@@ -267,11 +250,11 @@ class FiniteSliding:
     def clearances(self, u: FloatArray, *, nlgeom: bool) -> Clearances:
         """Compute the clearances to the current surface, with or without NLGEOM."""
         del u, nlgeom
-        self._now = now = self._projected.project(self._moved, np.arange(len(self.nodes)))
+        self._now = now = self._projected.project(self._moved)
         self._normal = normal = now.foot.normal
         conjugate = np.einsum("md,mdu->mu", normal, now.conjugate)
         rounding = rounding_of(self._coordinates, self._moved)
-        return Clearances(now.value, now.gradient, conjugate, now.curvature, rounding)
+        return Clearances(now.value, now.gradient, conjugate, rounding)
 
     def slips(self, u: FloatArray, change: FloatArray, elastic: FloatArray) -> Slips:
         """Compute the slips in the current tangent plane, in global components, after `clearances`."""
@@ -300,7 +283,19 @@ class FiniteSliding:
         by = np.einsum("mad,mab,mbu->mdu", foot.tangents, components_by, natural_by)
         by += np.einsum("ma,madu->mdu", components, now.tangents_by)
         by += np.einsum("ma,mabd,mbu->mdu", components, foot.second, natural_by)
-        return Slips(value, by, now.conjugate, now.force_stiffness, _axes(foot))
+        return Slips(value, by, now.conjugate, _axes(foot))
+
+    def add_stiffness(
+        self,
+        points: IntArray,
+        normal: FloatArray,
+        friction: FloatArray,
+        equations: Int32Array,
+        matrix: _contact.SparseValues,
+    ) -> None:
+        """Add the derivatives of the nodal forces, see `Motion.add_stiffness`."""
+        left, right = self._now.stiffness(points, normal, friction)
+        _contact.add_products(left, equations, right, equations, matrix)
 
     def commit(self) -> None:
         """Commit the normals at the end of a converged increment."""

@@ -11,7 +11,6 @@ derivatives of g and slip by the rotation of the face are moments: they shift th
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -23,6 +22,8 @@ from uel.elements.contributor import Find
 from uel.model.arrays import FloatArray, IntArray, flat_rows
 from uel.model.contact import ContactPair
 from uel.model.restart import Saved
+from uel.usersub._contact import SparseValues, add_products
+from uel.usersub.exchange import Int32Array
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,14 +33,12 @@ class Clearances:
     value     (m,)
     gradient  (m, u)
     conjugate (m, u) nodal forces of a unit contact force
-    curvature function of points (r,) and contact forces (r,): derivatives (r, u, u) of nodal forces; None: zero
     rounding  rounding error
     """
 
     value: FloatArray
     gradient: FloatArray
     conjugate: FloatArray
-    curvature: Callable[[IntArray, FloatArray], FloatArray] | None
     rounding: float
 
 
@@ -48,16 +47,14 @@ class Slips:
     """Elastic slips of m closed points, in t components.
 
     value    (m, t)
-    by       (m, t, u) derivatives by the unknowns
+    by       (m, t, v) derivatives by the unknowns of `Motion.slip_nodes`
     conjugate  (m, t, u) the motions along which a friction force does work
-    stiffness_of  function of points (r,) and friction forces (r, t): derivatives (r, u, u) of nodal forces; None: zero
     axes     (m, directions, t) local tangent directions
     """
 
     value: FloatArray
     by: FloatArray
     conjugate: FloatArray
-    stiffness_of: Callable[[IntArray, FloatArray], FloatArray] | None
     axes: FloatArray
 
 
@@ -70,6 +67,10 @@ class Motion(Protocol):
 
     nodes: IntArray
     components: int
+
+    @property
+    def slip_nodes(self) -> IntArray:
+        """Nodes (m, k) on which the slip of each point depends."""
 
     @property
     def above(self) -> NDArray[np.bool_]:
@@ -106,6 +107,23 @@ class Motion(Protocol):
         start.
         """
 
+    def add_stiffness(
+        self, points: IntArray, normal: FloatArray, friction: FloatArray, equations: Int32Array, matrix: SparseValues
+    ) -> None:
+        """Add the derivatives of the nodal forces at fixed contact and friction forces to the matrix, after `slips`.
+
+        Parameters
+        ----------
+        points
+            (r,) points with forces.
+        normal, friction
+            Contact forces (r,), and friction forces (r, t), which act the other way.
+        equations
+            (r, u) unknowns of the points.
+        matrix
+            Is changed.
+        """
+
     def commit(self) -> None:
         """Commit the trial state at the end of a converged increment."""
 
@@ -129,7 +147,7 @@ class SmallSliding:
     def __init__(self, pair: ContactPair, coordinates: FloatArray) -> None:
         """Prepare the sums over nodes; coordinates (nodes, 3) are those of all nodes of the model."""
         dimension = pair.dimension
-        self.nodes = pair.nodes
+        self.nodes = self.slip_nodes = pair.nodes
         self.components, self.areas = dimension - 1, pair.areas
         self.above = np.ones(len(pair.nodes), dtype=np.bool_)
         self._shape = *pair.nodes.shape, dimension
@@ -179,14 +197,21 @@ class SmallSliding:
         now = self._now
         if now is None:
             tangents = self._tangents
-            return Slips(elastic + np.einsum("mtu,mu->mt", tangents, change), tangents, tangents, None, axes)
+            return Slips(elastic + np.einsum("mtu,mu->mt", tangents, change), tangents, tangents, axes)
         then = components(*self._axes(self._positions(u - change), constant=True))
         by = np.einsum("mtk,mku->mtu", now.first[:, 1:], self._sums)
+        return Slips(elastic + now.value[:, 1:] - then.value[:, 1:], by, by, axes)
 
-        def stiffness_of(points: IntArray, forces: FloatArray) -> FloatArray:
-            return self._curved(points, np.einsum("mt,mtkl->mkl", forces, now.second[points, 1:]))
-
-        return Slips(elastic + now.value[:, 1:] - then.value[:, 1:], by, by, stiffness_of, axes)
+    def add_stiffness(
+        self, points: IntArray, normal: FloatArray, friction: FloatArray, equations: Int32Array, matrix: SparseValues
+    ) -> None:
+        """Add the derivatives of the nodal forces, see `Motion.add_stiffness`; none without NLGEOM."""
+        if self._now is None:
+            return
+        sums, forces = self._sums[points], np.concatenate([-normal[:, None], friction], axis=1)
+        # by the tangents and d
+        by_vectors = np.einsum("mt,mtkl->mkl", forces, self._now.second[points])
+        add_products(sums, equations, by_vectors @ sums, equations, matrix)
 
     def commit(self) -> None:
         """Do nothing: there is no history."""
@@ -202,24 +227,15 @@ class SmallSliding:
         """Compute the clearances in small displacements."""
         gradient = self._along(self._normals)
         value = self._clearances + np.einsum("mu,mu->m", gradient, u)
-        return Clearances(value, gradient, gradient, None, float(np.finfo(float).eps * np.abs(u).max()))
+        return Clearances(value, gradient, gradient, float(np.finfo(float).eps * np.abs(u).max()))
 
     def finite(self, u: FloatArray) -> Clearances:
         """Compute the clearances in large displacements."""
         positions = self._positions(u)
         self._now = now = components(*self._axes(positions))
         gradient = np.einsum("mk,mku->mu", now.first[:, 0], self._sums)
-
-        def bent(points: IntArray, force: FloatArray) -> FloatArray:
-            return self._curved(points, force[:, None, None] * now.second[points, 0])
-
         rounding = float(np.finfo(float).eps) * float(np.abs(positions).max())
-        return Clearances(now.value[:, 0], gradient, gradient, bent, rounding)
-
-    def _curved(self, points: IntArray, matrix: FloatArray) -> FloatArray:
-        """Return (r, u, u) derivatives by the displacements from those (r, k, k) by tangents and d."""
-        sums = self._sums[points]
-        return np.asarray(np.einsum("mku,mkv->muv", sums, np.einsum("mkl,mlv->mkv", matrix, sums)))
+        return Clearances(now.value[:, 0], gradient, gradient, rounding)
 
     def _positions(self, u: FloatArray) -> FloatArray:
         """Return (m, n, dimension) current coordinates of the nodes."""

@@ -5,18 +5,22 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Final, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from uel.model.arrays import FloatArray, IntArray
+from uel.usersub import _contact
 
 EQUAL: Final = 1e-9
-"""Difference of distances over the piece size, and of natural coordinates, that is rounding."""
+"""Difference of distances over the piece size, and of natural coordinates, that is rounding; `rounding` of
+fortran/host/contact/faces.f90.
+"""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class SurfacePoints:
     """Points of a main surface.
 
@@ -29,30 +33,19 @@ class SurfacePoints:
     tangents: FloatArray
     second: FloatArray
 
-    @property
-    def metric(self) -> FloatArray:
-        """Metric (m, a, a) of the tangents, regularized where an extended face has no area."""
-        products = np.einsum("mad,mbd->mab", self.tangents, self.tangents)
-        size = np.trace(products, axis1=1, axis2=2)[:, None, None]
-        return np.asarray(products + EQUAL**2 * size * np.eye(products.shape[1]))
-
-    def take(self, points: IntArray) -> SurfacePoints:
-        """Return some of the points."""
-        return SurfacePoints(self.at[points], self.tangents[points], self.second[points])
+    @cached_property
+    def _frames(self) -> tuple[FloatArray, FloatArray]:
+        return _contact.frames(self.tangents)
 
     @property
     def normal(self) -> FloatArray:
-        """Outward normals (m, d) of length one."""
-        first = self.tangents[:, 0]
-        if self.at.shape[1] == 2:
-            normals = np.stack([first[:, 1], -first[:, 0]], axis=1)
-        elif self.tangents.shape[1] == 1:
-            # a line in space has no normal
-            normals = np.zeros_like(first)
-        else:
-            normals = np.cross(first, self.tangents[:, 1])
-        length = np.linalg.norm(normals, axis=1)[:, None]
-        return np.asarray(normals / np.where(length > 0.0, length, 1.0))
+        """Outward normals (m, d) of length one; zero on a line in space."""
+        return self._frames[0]
+
+    @property
+    def metric(self) -> FloatArray:
+        """Metric (m, a, a) of the tangents, regularized where an extended face has no area."""
+        return self._frames[1]
 
 
 class Surface(Protocol):

@@ -12,6 +12,7 @@ The slip is that of the node, as in `finite_sliding`.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Final
 
 import numpy as np
@@ -24,9 +25,11 @@ from uel.contact.kinematics import Clearances, Slips, displacements
 from uel.contact.main_surface import EQUAL
 from uel.contact.shape_functions import weights_of
 from uel.elements.contributor import Find
-from uel.model.arrays import FloatArray, IntArray
+from uel.model.arrays import FloatArray, IntArray, flat_rows
 from uel.model.contact import Pieces, SurfacePair
 from uel.model.restart import Saved
+from uel.usersub import _contact
+from uel.usersub.exchange import Int32Array
 
 FACING: Final = 0.5
 """Cosine of the largest angle, 60 degrees, between normals of adjacent smooth faces, and of opposite faces."""
@@ -53,20 +56,30 @@ class SurfaceSliding:
         self._pair, self._main, self._dimension = pair, pair.main, pair.dimension
         self._coordinates = coordinates[:, : pair.dimension]
         self._secondary = FaceSurface(pair.own, self._coordinates)
-        self._all = FaceSurface(pair.main, self._coordinates)
+        self._surface = FaceSurface(pair.main, self._coordinates, -FACING)
         self._slip = FiniteSliding(pair, coordinates, -FACING)
         self.components = pair.dimension
         self._base = len(coordinates) + 1
         self._linked = np.zeros(0, dtype=np.int64)
         self._keys = self._linked
+        self.known = False
         self.nodes = pair.secondary[:, None]
         self._moved = np.zeros_like(self._coordinates)
         # displacements at the last sampling
         self._sampled: FloatArray | None = self._moved
+        # contact of the samples at the last mean
+        self._touched: tuple[NDArray[np.bool_], IntArray] | None = None
+        if pair.dimension == 3:
+            self._place(*self._in_space())
         self._sample()
         self.reach()
         start, size = self._clearances, self._secondary.sizes(np.zeros(1, dtype=np.int64), self._moved)[0]
         self._start = np.where(np.abs(start) <= EQUAL * size, 0.0, start)
+
+    @property
+    def slip_nodes(self) -> IntArray:
+        """Nodes (m, k) on which the slip of each point depends: its own and those of the piece opposite."""
+        return self._slip.nodes
 
     def unknowns_of(self, count: int) -> tuple[tuple[int, int], ...]:
         """Return the displacements of one node after the other."""
@@ -101,35 +114,46 @@ class SurfaceSliding:
         positions = self._coordinates + self._moved
         return unit(normals_of(positions[self._pair.own.nodes]))[self._face]
 
-    def _sample(self) -> None:
-        """Choose samples, and project them."""
-        self._face, natural, part = self._in_plane() if self._dimension == 2 else self._in_space()
-        pair, face = self._pair, self._face
-        nodes = pair.own.nodes[face]
+    def _place(self, face: IntArray, natural: FloatArray, part: FloatArray) -> None:
+        """Set samples at natural coordinates of faces, with their weights in these."""
+        pair, self._face, self._natural = self._pair, face, natural
         shapes = weights_of(pair.own.shapes[face], natural)[0]
         tangents = self._secondary.at(face, natural, np.zeros_like(self._moved)).tangents
         size = tangents[:, 0] if self._dimension == 2 else np.cross(tangents[:, 0], tangents[:, 1])
         area = part * np.linalg.norm(size, axis=1) * np.einsum("qk,qk->q", shapes, pair.depths[face])
         self._areas_of_samples, self._point = area[:, None] * shapes, pair.corners[face]
-        self._projected = ProjectedPoints(self._main, self._coordinates, nodes, shapes, -FACING)
-        self._projected.search(self._moved, self._outward(), everywhere=True)
-        self._unobstructed = self._find_unobstructed()
-        sides = (pair.own, (face, natural)), (self._main, (self._projected.piece, self._projected.natural))
+        self._total = _sums(self._point, self._areas_of_samples, len(pair.secondary))
+        self._projected = ProjectedPoints(self._surface, self._coordinates, pair.own.nodes[face], shapes)
+
+    def _sample(self) -> None:
+        """Choose samples, and project them."""
+        if self._dimension == 2:
+            self._place(*self._in_plane())
+        self._touched, projected, pair = None, self._projected, self._pair
+        points = projected.points(self._moved)
+        near, before = self._surface.near(points, self._moved), np.zeros(len(points), dtype=np.int64)
+        hits = self._surface.search(points, self._outward(), self._moved, before, near)
+        projected.piece, projected.natural, projected.above = hits.piece, hits.natural, hits.above
+        self._unobstructed = self._find_unobstructed(points, near)
+        sides = (pair.own, (self._face, self._natural)), (self._main, (projected.piece, projected.natural))
         self._outside = sum(
             corrections(rounded, pieces, self._coordinates, points)
             for rounded, (pieces, points) in zip(pair.rounded, sides, strict=True)
+            if rounded
         )
         self._average()
 
-    def _find_unobstructed(self) -> NDArray[np.bool_]:
+    def _find_unobstructed(self, points: FloatArray, near: IntArray) -> NDArray[np.bool_]:
         """Return the mask (q,) of samples that face their pieces without obstruction: a penetrating sample is in the
         body of its piece, no other piece is nearer, and it is not at the far side of its own body.
+
+        Arguments are coordinates (q, d) of the samples, and pieces (q, c) near them.
         """
         values = self._projected.values(self._moved)
         unobstructed = values >= -self._pair.deepest[self._face]
         behind = np.flatnonzero(unobstructed & (values < 0.0) & self._projected.above)
         if len(behind):
-            nearest = self._all.distances(self._projected.points(self._moved)[behind], self._moved)
+            nearest = self._surface.distances(points[behind], self._moved, near[behind])
             unobstructed[behind] = nearest >= -values[behind] * (1.0 - NEARER)
         return unobstructed
 
@@ -164,39 +188,55 @@ class SurfaceSliding:
 
     def _average(self) -> None:
         """Compute clearances and areas of the points, and the weights of the samples in them."""
-        m, opposite = len(self._pair.secondary), self._projected
-        values = opposite.values(self._moved) - self._outside
-        here = (opposite.above & self._unobstructed)[:, None]
-        weights, point = self._areas_of_samples, self._point
-        total, area = _sums(point, weights, m), _sums(point, weights * here, m)
-        self.above: NDArray[np.bool_] = area > SLIVER * total
+        projected = self._projected
+        self._gaps = projected.values(self._moved)
+        here = projected.above & self._unobstructed
+        touched = here, projected.piece
+        if self._touched is None or not all(map(np.array_equal, self._touched, touched)):
+            self._touched = touched
+            self._weigh(here)
+        values = self._gaps - self._outside
+        distances = np.where(here, values, np.abs(values))
+        self._clearances = _sums(self._point, self._weights * distances[:, None], len(self._pair.secondary))
+
+    def _weigh(self, here: NDArray[np.bool_]) -> None:
+        """Compute the weights of the samples in the points: of those in the mask (q,) where they suffice."""
+        m, weights, point = len(self._pair.secondary), self._areas_of_samples, self._point
+        area = _sums(point, weights * here[:, None], m)
+        self.above: NDArray[np.bool_] = area > SLIVER * self._total
         # without contact: the mean distance of all samples
-        weights = np.where(self.above[point], weights * here, weights)
+        weights = np.where(self.above[point], weights * here[:, None], weights)
         self.areas = _sums(point, weights, m)
         self._weights = weights / self.areas[point]
-        distances = np.where(here, values[:, None], np.abs(values)[:, None])
-        self._clearances = _sums(point, self._weights * distances, m)
         self._find_nodes()
 
     def _find_nodes(self) -> None:
-        """Set the nodes of each point, and the positions among them of the nodes of its samples and of its slip.
+        """Set the nodes of each point, those of its samples and of its slip, and the positions of the former.
 
         Pairs of a sample and a point have a nonzero weight; a point without contact has its own node only.
         """
         row = np.arange(len(self._pair.secondary))
-        sample, column = np.nonzero((self._weights > 0.0) & self.above[self._point])
-        self._used, self._sample_of = np.unique(sample, return_inverse=True)
+        self._sample_of, column = np.nonzero((self._weights > 0.0) & self.above[self._point])
+        sample = self._sample_of
         self._point_of, self._weight_of = self._point[sample, column], self._weights[sample, column]
-        self._touching = row[self.above]
+        touching = row[self.above]
         of_samples = self._key(self._point_of[:, None], self._projected.nodes_of()[sample])
-        of_slips = self._key(self._touching[:, None], self._slip.nodes[self._touching])
+        of_slips = self._key(touching[:, None], self._slip.nodes[touching])
         keys = np.unique(np.concatenate([row * self._base, of_samples.ravel(), of_slips.ravel()]))
         first = np.searchsorted(keys, row * self._base)
         if not np.array_equal(keys, self._keys):
             self._keys = keys
             self.nodes = self._rows(keys)[1]
+            self.known = self._find_known()
         self._positions = np.searchsorted(keys, of_samples) - first[self._point_of][:, None]
-        self._slip_positions = np.searchsorted(keys, of_slips) - first[self._touching][:, None]
+        self._group()
+
+    def _group(self) -> None:
+        """Set the groups of samples with the same nodes: samples in their order, and the first one of each."""
+        keys = self._face * len(self._main.nodes) + self._projected.piece
+        used = np.unique(self._sample_of)
+        self._used = used[np.argsort(keys[used], kind="stable")]
+        self._first = np.append(np.unique(keys[self._used], return_index=True)[1], len(self._used))
 
     def _key(self, point: IntArray, nodes: IntArray) -> IntArray:
         """Return a unique number for a point and a node, smallest for its own node."""
@@ -212,22 +252,23 @@ class SurfaceSliding:
         rows[inside] = np.where(node < 0, self._pair.secondary[point], node)
         return points, rows
 
-    @property
-    def known(self) -> bool:
-        """Whether `links` has all nodes of the points."""
+    def _find_known(self) -> bool:
         return bool(np.isin(self._keys, self._linked).all())
 
     def reach(self) -> None:
         """Update `links` to the current nodes of each point, and those of neighbouring pieces."""
         self._slip.reach()
-        surface, pieces = self._projected.surface, self._projected.piece[self._used]
+        surface, pieces = self._surface, self._projected.piece[self._used]
         ring = surface.ring_of(pieces)
         nodes = surface.nodes_of(ring.ravel())
-        around = nodes.reshape(len(pieces), ring.shape[1] * nodes.shape[1])[self._sample_of]
+        around = np.zeros((len(self._face), ring.shape[1] * nodes.shape[1]), dtype=np.int64)
+        around[self._used] = nodes.reshape(len(pieces), around.shape[1])
         point, beside = self._slip.links()
         near = self.above[point]
-        both = self._key(self._point_of[:, None], around), self._key(point[near, None], beside[near])
+        of_samples = self._key(self._point_of[:, None], around[self._sample_of])
+        both = of_samples, self._key(point[near, None], beside[near])
         self._linked = np.unique(np.concatenate([self._keys, *(keys.ravel() for keys in both)]))
+        self.known = True
 
     def links(self) -> tuple[IntArray, IntArray]:
         """Return points and their nodes, at the last `reach`."""
@@ -236,57 +277,49 @@ class SurfaceSliding:
     def clearances(self, u: FloatArray, *, nlgeom: bool) -> Clearances:
         """Compute the clearances to the current surface, with or without NLGEOM."""
         self._slip.clearances(u, nlgeom=nlgeom)
-        self._now = now = self._projected.project(self._moved, self._used)
-        m, width = len(self.nodes), self.nodes.shape[1] * self._dimension
-        positions = self._point_of[:, None] * width + self._unknowns(self._positions)
-        weights = self._weight_of[:, None] * now.gradient[self._sample_of]
-        gradient = _sums(positions, weights, m * width).reshape(m, width)
+        projected = self._projected
+        samples = _contact.Samples(projected.shapes, projected.piece, projected.natural)
+        pairs = self._sample_of, self._point_of, self._weight_of, self._positions
+        gradients, self._shares = _contact.means(
+            self._main, self._coordinates + self._moved, samples, pairs, self.nodes.shape
+        )
+        gradient = flat_rows(gradients)
         rounding = rounding_of(self._coordinates, self._moved)
-        return Clearances(self._clearances, gradient, gradient, self._curvature, rounding)
+        return Clearances(self._clearances, gradient, gradient, rounding)
 
-    def _unknowns(self, positions: IntArray) -> IntArray:
-        """Return (r, u) positions of unknowns of a point, from positions (r, n) of nodes."""
-        dimension = self._dimension
-        unknowns = positions[:, :, None] * dimension + np.arange(dimension)
-        return np.asarray(unknowns.reshape(len(positions), positions.shape[1] * dimension))
-
-    def _spread(self, points: IntArray, forces: FloatArray) -> tuple[IntArray, IntArray, FloatArray]:
-        """Return the sample pairs of points (r,), the point of each pair, and its weighted force (from (r, ...))."""
-        row_of = np.full(len(self.nodes), -1)
-        row_of[points] = np.arange(len(points))
-        pairs = np.flatnonzero(row_of[self._point_of] >= 0)
-        of_point = row_of[self._point_of[pairs]]
-        return pairs, of_point, (self._weight_of[pairs] * forces[of_point].T).T
-
-    def _gather(self, pairs: IntArray, of_point: IntArray, values: FloatArray, count: int) -> FloatArray:
-        """Sum values (pairs, u, u) by points to (count, U, U)."""
-        width, at = self.nodes.shape[1] * self._dimension, self._unknowns(self._positions[pairs])
-        positions = (of_point[:, None, None] * width + at[:, :, None]) * width + at[:, None]
-        return _sums(positions, values, count * width * width).reshape(count, width, width)
-
-    def _curvature(self, points: IntArray, force: FloatArray) -> FloatArray:
-        """Return the derivatives (r, U, U) of the nodal forces of contact forces (r,) on points."""
-        pairs, of_point, weights = self._spread(points, force)
-        return self._gather(pairs, of_point, self._now.curvature(self._sample_of[pairs], weights), len(points))
-
-    def _friction_stiffness(self, points: IntArray, force: FloatArray) -> FloatArray:
-        """Return the derivatives (r, U, U) of the nodal forces of friction forces (r, d) on points."""
-        pairs, of_point, weights = self._spread(points, force)
-        return self._gather(pairs, of_point, self._now.force_stiffness(self._sample_of[pairs], weights), len(points))
+    def add_stiffness(
+        self,
+        points: IntArray,
+        normal: FloatArray,
+        friction: FloatArray,
+        equations: Int32Array,
+        matrix: _contact.SparseValues,
+    ) -> None:
+        """Add the derivatives of the nodal forces, see `Motion.add_stiffness`."""
+        del equations
+        forces = np.zeros((len(self.nodes), 1 + self._dimension))
+        forces[points, 0], forces[points, 1:] = normal, friction
+        q, used, projected = len(self._face), self._used, self._projected
+        of_pairs = self._weight_of[:, None] * forces[self._point_of]
+        of_samples = np.stack([_sums(self._sample_of, values, q) for values in of_pairs.T], axis=1)[used]
+        samples = _contact.Samples(projected.shapes[used], projected.piece[used], projected.natural[used])
+        nodes = projected.nodes_of()[used[self._first[:-1]]]
+        unknowns = flat_rows(self._slip.numbers[nodes]).astype(np.int32)
+        _contact.add_stiffness(
+            self._main,
+            self._coordinates + self._moved,
+            samples,
+            (self._gaps[used], of_samples[:, 0], of_samples[:, 1:]),
+            (self._first, unknowns),
+            matrix,
+        )
 
     def slips(self, u: FloatArray, change: FloatArray, elastic: FloatArray) -> Slips:
         """Compute the slips of the nodes; friction forces are means over the samples."""
         slips = self._slip.slips(u, change, elastic)
         m, n, dimension = *self.nodes.shape, self._dimension
-        # (m, n, d, t), then the directions t first
-        by, conjugate = np.zeros((m, n, dimension, dimension)), np.zeros((m, n, dimension, dimension))
-        local = slips.by.reshape(m, dimension, self._slip.nodes.shape[1], dimension)[self._touching]
-        np.add.at(by, (self._touching[:, None], self._slip_positions), local.transpose(0, 2, 3, 1))
-        along = self._now.conjugate.reshape(len(self._used), dimension, self._positions.shape[1], dimension)
-        along = self._weight_of[:, None, None, None] * along[self._sample_of]
-        np.add.at(conjugate, (self._point_of[:, None], self._positions), along.transpose(0, 2, 3, 1))
-        first = [array.transpose(0, 3, 1, 2).reshape(m, dimension, n * dimension) for array in (by, conjugate)]
-        return Slips(slips.value, first[0], first[1], self._friction_stiffness, slips.axes)
+        conjugate = np.einsum("mn,td->mtnd", self._shares, np.eye(dimension)).reshape(m, dimension, n * dimension)
+        return replace(slips, by=slips.by * self.above[:, None, None], conjugate=conjugate)
 
     def commit(self) -> None:
         """Commit the slips at the end of a converged increment."""
@@ -300,6 +333,7 @@ class SurfaceSliding:
         """Restore the state that `kept` returned."""
         self._slip.resume(saved["slip"])
         self._linked, self._sampled = saved["linked"], None
+        self.known = self._find_known()
 
 
 def _sums(positions: IntArray, values: FloatArray, count: int) -> FloatArray:

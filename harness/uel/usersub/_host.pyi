@@ -302,3 +302,93 @@ def host_add_matrices(matrices: NDArray[np.float64], map: NDArray[np.int32], mat
 def host_scatter_map(
     equations: NDArray[np.int32], indptr: NDArray[np.int32], indices: NDArray[np.int32], map: NDArray[np.int32]
 ) -> None: ...
+def host_contact_monomials(
+    natural: NDArray[np.float64], values: NDArray[np.float64], first: NDArray[np.float64], second: NDArray[np.float64]
+) -> None: ...
+def host_contact_sizes(nodes: NDArray[np.int64], coordinates: NDArray[np.float64]) -> NDArray[np.float64]: ...
+def host_contact_frames(
+    tangents: NDArray[np.float64], normals: NDArray[np.float64], metrics: NDArray[np.float64]
+) -> None: ...
+def host_contact_feet(
+    shapes: NDArray[np.float64],
+    nodes: NDArray[np.int64],
+    coordinates: NDArray[np.float64],
+    face: NDArray[np.int64],
+    natural: NDArray[np.float64],
+    at: NDArray[np.float64],
+    tangents: NDArray[np.float64],
+    second: NDArray[np.float64],
+) -> None: ...
+def host_contact_search(
+    shapes: NDArray[np.float64],
+    nodes: NDArray[np.int64],
+    coordinates: NDArray[np.float64],
+    low: NDArray[np.float64],
+    high: NDArray[np.float64],
+    total: NDArray[np.float64],
+    reach_low: NDArray[np.float64],
+    reach_high: NDArray[np.float64],
+    reach_total: NDArray[np.float64],
+    ring: NDArray[np.int64],
+    facing: float,
+    points: NDArray[np.float64],
+    outward: NDArray[np.float64],
+    before: NDArray[np.int64],
+    near: NDArray[np.int64],
+    most: int,
+    face: NDArray[np.int64],
+    natural: NDArray[np.float64],
+    within: NDArray[np.float64],
+    distance: NDArray[np.float64],
+    above: NDArray[np.int32],
+) -> None: ...
+def host_contact_derivatives(
+    tangents: NDArray[np.float64],
+    second: NDArray[np.float64],
+    gap: NDArray[np.float64],
+    along: NDArray[np.float64],
+    across: NDArray[np.float64],
+    natural_by: NDArray[np.float64],
+    tilt: NDArray[np.float64],
+) -> None: ...
+def host_contact_products(
+    left: NDArray[np.float64],
+    rows: NDArray[np.int32],
+    right: NDArray[np.float64],
+    columns: NDArray[np.int32],
+    indptr: NDArray[np.int32],
+    indices: NDArray[np.int32],
+    values: NDArray[np.float64],
+) -> None: ...
+def host_contact_means(
+    shapes: NDArray[np.float64],
+    loads: NDArray[np.float64],
+    nodes: NDArray[np.int64],
+    coordinates: NDArray[np.float64],
+    own: NDArray[np.float64],
+    face: NDArray[np.int64],
+    natural: NDArray[np.float64],
+    sample: NDArray[np.int64],
+    point: NDArray[np.int64],
+    weight: NDArray[np.float64],
+    positions: NDArray[np.int64],
+    gradients: NDArray[np.float64],
+    shares: NDArray[np.float64],
+) -> None: ...
+def host_contact_samples_stiffness(
+    shapes: NDArray[np.float64],
+    loads: NDArray[np.float64],
+    nodes: NDArray[np.int64],
+    coordinates: NDArray[np.float64],
+    own: NDArray[np.float64],
+    face: NDArray[np.int64],
+    natural: NDArray[np.float64],
+    gap: NDArray[np.float64],
+    normal_force: NDArray[np.float64],
+    friction: NDArray[np.float64],
+    first: NDArray[np.int64],
+    equations: NDArray[np.int32],
+    indptr: NDArray[np.int32],
+    indices: NDArray[np.int32],
+    values: NDArray[np.float64],
+) -> None: ...

@@ -12,7 +12,7 @@ The sum of psi is 1, so that a constant traction has consistent forces at the ma
 functions at the node, so that linear displacements are compatible. The patch test thus passes for any faces. A node on
 a sharp edge follows its nearest point, and the other nodes of its faces take the difference (`_moves`). Gauss points on
 the intersections of faces make the integrals exact on flat faces. Points are projected onto faces as in contact
-(`harness/uel/contact/projection.py`).
+(`fortran/host/contact/faces.f90`).
 """
 
 from __future__ import annotations

@@ -27,7 +27,7 @@ def nearest_points(
     """Return weights (m, n) of the nodes of the model at the points of the main surface nearest to `points`.
 
     On faces `harness/uel/contact/face_surface.py` chooses the face, with the closest point projection of
-    `harness/uel/contact/projection.py`.
+    `fortran/host/contact/faces.f90`.
 
     Parameters
     ----------

@@ -6,7 +6,7 @@ TYPE=NODE TO SURFACE: a node follows the nearest point of the main surface, by t
 TO SURFACE, the default: it follows means over its faces (`mean_weights`) where main faces cover these, else the nearest
 point. On a main surface of nodes it follows the nearest node. Nodes outside the position tolerance stay untied. ADJUST
 moves tied nodes onto the main surface. `nearest_points` has the weights of the nearest points, which it projects onto
-faces as contact does (`harness/uel/contact/projection.py`).
+faces as contact does (`fortran/host/contact/faces.f90`).
 
 With CYCLIC SYMMETRY the main surface is that of the next sector, rotated by 360/N degrees about the axis, with its
 displacements and rotations. Nodes on both surfaces are on the axis and move along it.
