@@ -107,24 +107,36 @@ contains
   pure subroutine interpolate(polynomial, natural, foot)
     real(dp), intent(in), contiguous :: polynomial(:, :), natural(:)
     type(foot_t), intent(inout) :: foot
-    real(dp) :: values(size(polynomial, 2)), first(size(polynomial, 2), size(natural))
-    real(dp) :: second(size(polynomial, 2), size(natural), size(natural))
+    ! a compiler makes more of loops whose length it knows: linear faces in space
+    if (size(polynomial, 2) == 4) then
+      call sum_terms(2, 4, polynomial, natural, foot)
+    else
+      call sum_terms(size(natural), size(polynomial, 2), polynomial, natural, foot)
+    end if
+  end subroutine interpolate
+
+  !> The same with its sizes.
+  pure subroutine sum_terms(along, terms, polynomial, natural, foot)
+    integer, value :: along, terms
+    real(dp), intent(in) :: polynomial(3, terms), natural(along)
+    type(foot_t), intent(inout) :: foot
+    real(dp) :: values(terms), first(terms, along), second(terms, along, along)
     integer :: a, b, j
-    foot%along = size(natural)
-    call monomials(foot%along, size(polynomial, 2), natural, values, first, second)
+    foot%along = along
+    call monomials(along, terms, natural, values, first, second)
     foot%at = 0
     foot%tangents = 0
     foot%second = 0
-    do j = 1, size(polynomial, 2)
+    do j = 1, terms
       foot%at = foot%at + values(j)*polynomial(:, j)
-      do a = 1, foot%along
+      do a = 1, along
         foot%tangents(:, a) = foot%tangents(:, a) + first(j, a)*polynomial(:, j)
-        do b = 1, foot%along
-          foot%second(:, a, b) = foot%second(:, a, b) + second(j, a, b)*polynomial(:, j)
+        do b = 1, along
+          foot%second(:, b, a) = foot%second(:, b, a) + second(j, b, a)*polynomial(:, j)
         end do
       end do
     end do
-  end subroutine interpolate
+  end subroutine sum_terms
 
   !> Normal and metric of the tangents.
   pure subroutine find_frame(dimension, foot)

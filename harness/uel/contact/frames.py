@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Axes that rotate with a face, and the components of a vector along them, with first and second derivatives.
 
-A jet has vectors that depend on k variables: the components of the tangents of the face at the anchor point, and of the
-vector d from there to the secondary node. They are linear in the displacements: a constant matrix gives the derivatives
+A jet has vectors that depend on k variables: the components of the tangents of the face at the anchor point. These and
+the vector d from there to the secondary node are linear in the displacements: a constant matrix gives the derivatives
 by the displacements.
 """
 
@@ -55,19 +55,22 @@ class Jet:
         return Jet(n, across / length, second / length[..., None] - mixed / length[..., None] ** 2)
 
 
-def product(tensor: FloatArray, a: Jet, b: Jet) -> Jet:
-    """Return the bilinear product tensor (e, p, q) a_p b_q."""
-    value = np.einsum("epq,mp,mq->me", tensor, a.value, b.value)
-    left, right = np.einsum("epq,mp->meq", tensor, a.value), np.einsum("epq,mq->mep", tensor, b.value)
-    first = np.einsum("meq,mqk->mek", left, b.first) + np.einsum("mep,mpk->mek", right, a.first)
-    mixed = np.einsum("mepk,mpl->mekl", np.einsum("epq,mqk->mepk", tensor, b.first), a.first)
-    second = np.einsum("meq,mqkl->mekl", left, b.second) + np.einsum("mep,mpkl->mekl", right, a.second)
-    return Jet(value, first, second + mixed + mixed.swapaxes(2, 3))
-
-
 def cross(a: Jet, b: Jet) -> Jet:
     """Return a x b."""
-    return product(PERMUTATION, a, b)
+    m, _, count = a.first.shape
+    left, right = _times(a.value), -_times(b.value)
+    mixed = np.einsum("mkeq,mql->mekl", _times(a.first.swapaxes(1, 2)), b.first)
+    seconds = left @ b.second.reshape(m, 3, count**2) + right @ a.second.reshape(m, 3, count**2)
+    return Jet(
+        np.einsum("mij,mj->mi", left, b.value),
+        left @ b.first + right @ a.first,
+        seconds.reshape(m, 3, count, count) + mixed + mixed.swapaxes(2, 3),
+    )
+
+
+def _times(vectors: FloatArray) -> FloatArray:
+    """Return the matrices (..., 3, 3) of the products of vectors (..., 3) with another vector."""
+    return np.asarray(np.tensordot(vectors, PERMUTATION, axes=(-1, 1)))
 
 
 def make_variables(vectors: Sequence[FloatArray], *, constant: bool = False) -> list[Jet]:
@@ -110,8 +113,15 @@ def turning_axes(tangents: Sequence[Jet], normal: FloatArray, first: FloatArray)
     return [n, cross(second, n), second]
 
 
-def components(axes: Sequence[Jet], vector: Jet) -> Jet:
-    """Return the components of a vector along the axes, as vectors (m, axes)."""
-    tensor = np.eye(vector.value.shape[1])[None]
-    rows = [product(tensor, axis, vector) for axis in axes]
-    return Jet(*(np.concatenate([getattr(row, name) for row in rows], axis=1) for name in ("value", "first", "second")))
+def components(axes: Sequence[Jet], vector: FloatArray) -> Jet:
+    """Return the components of a vector (m, d) along the axes, as vectors (m, axes); its own components are further
+    variables, the last ones.
+    """
+    value, first, second = (np.stack([getattr(axis, name) for axis in axes], axis=1) for name in Jet.__slots__)
+    by_axes, count = np.einsum("md,madk->mak", vector, first), first.shape[3]
+    total = count + vector.shape[1]
+    by_both = np.zeros((*value.shape[:2], total, total))
+    by_both[:, :, :count, :count] = np.einsum("md,madkl->makl", vector, second)
+    by_both[:, :, count:, :count] = first
+    by_both[:, :, :count, count:] = first.swapaxes(2, 3)
+    return Jet(np.einsum("md,mad->ma", vector, value), np.concatenate([by_axes, value], axis=2), by_both)

@@ -247,10 +247,11 @@ class SmallSliding:
         vectors = np.einsum("mku,mu->mk", self._sums, flat_rows(positions)).reshape(m, dimension, dimension)
         return [vectors[:, number] for number in range(vectors.shape[1])]
 
-    def _axes(self, positions: FloatArray, *, constant: bool = False) -> tuple[list[Jet], Jet]:
-        """Return normal and directions of slip, and d; constant: without derivatives."""
-        *tangents, gap = make_variables(self._vectors(positions), constant=constant)
-        return turning_axes(tangents, self._normal_components, self._first), gap
+    def _axes(self, positions: FloatArray, *, constant: bool = False) -> tuple[list[Jet], FloatArray]:
+        """Return normal and directions of slip, and d (m, dimension); constant: without derivatives."""
+        *tangents, gap = self._vectors(positions)
+        jets = make_variables(tangents, constant=constant)
+        return turning_axes(jets, self._normal_components, self._first), gap
 
     def _first_direction(self) -> FloatArray:
         """Return the (m, dimension) first direction of slip before the analysis.
