@@ -30,7 +30,7 @@ contains
 
   !> The first ones of 1, xi, xi^2 or 1, xi, eta, xi eta, xi^2, eta^2, xi^2 eta, xi eta^2, and their derivatives.
   pure subroutine monomials(along, terms, natural, values, first, second)
-    integer, intent(in) :: along, terms    !< 1 and 3, or 2 and 4 or 8
+    integer, value :: along, terms               !< 1 and 3, or 2 and 4 or 8
     real(dp), intent(in) :: natural(along)
     real(dp), intent(out) :: values(terms), first(terms, along), second(terms, along, along)
     real(dp) :: xi, eta
