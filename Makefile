@@ -93,7 +93,7 @@ test-matrix:
 	$(PYTHON) tests/programs/matrix.py
 
 bench: $(INSTALLED)
-	@failed=0; for program in bench limit; do \
+	@failed=0; for program in bench limit contact; do \
 		$(RUN) $(BIN)/python tests/programs/benchmarks/$$program.py || failed=1; done; exit $$failed
 
 start: copy
