@@ -58,7 +58,8 @@ contains
         entry = guess
       else
         span = 1
-        do while (indices(min(entry + span, end)) < columns(first(k)))
+        do while (entry + span < end)
+          if (indices(entry + span) >= columns(first(k))) exit
           span = 2*span
         end do
         entry = entry - 1 + position(indices(entry:min(entry + span, end)), columns(first(k)))

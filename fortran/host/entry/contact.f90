@@ -180,12 +180,13 @@ subroutine host_contact_products(left, rows, right, columns, indptr, indices, va
 end subroutine host_contact_products
 
 !> Add to the points their means over samples: gradients of the clearance, and shares of the nodes in a force.
-subroutine host_contact_means(shapes, loads, nodes, coordinates, own, face, natural, sample, point, weight, positions, &
-                              gradients, shares, terms, k, faces, d, n, l, q, along, pairs, kl, width, m)
+subroutine host_contact_means(shapes, loads, nodes, coordinates, own, face, natural, sample, point, weight, &
+                              place, positions, gradients, shares, &
+                              terms, k, faces, d, n, l, q, along, pairs, places, kl, width, m)
   use host_kinds, only: dp, i4, i8
   use host_contact_samples, only: new_sample, sample_t
   implicit none (type, external)
-  integer(i4), intent(in) :: terms, k, faces, d, n, l, q, along, pairs, kl, width, m
+  integer(i4), intent(in) :: terms, k, faces, d, n, l, q, along, pairs, places, kl, width, m
   real(dp), intent(in) :: shapes(terms, k, faces), loads(terms, k, faces), coordinates(d, n)
   integer(i8), intent(in) :: nodes(k, faces)
   real(dp), intent(in) :: own(l, q)                  !< shape functions of the nodes of the secondary surface
@@ -193,7 +194,8 @@ subroutine host_contact_means(shapes, loads, nodes, coordinates, own, face, natu
   real(dp), intent(in) :: natural(along, q)
   integer(i8), intent(in) :: sample(pairs), point(pairs)   !< samples ascend
   real(dp), intent(in) :: weight(pairs)
-  integer(i8), intent(in) :: positions(kl, pairs)    !< of the nodes of the sample among those of the point
+  integer(i8), intent(in) :: place(pairs)            !< column of `positions`, from 0
+  integer(i8), intent(in) :: positions(kl, places)   !< of the nodes of the sample among those of the point
   real(dp), intent(inout) :: gradients(d, width, m), shares(width, m)
   type(sample_t) :: at
   integer(i8) :: last
@@ -207,7 +209,7 @@ subroutine host_contact_means(shapes, loads, nodes, coordinates, own, face, natu
       end associate
     end if
     do j = 1, kl
-      associate (node => positions(j, i) + 1, to => point(i) + 1)
+      associate (node => positions(j, place(i) + 1) + 1, to => point(i) + 1)
         gradients(:, node, to) = gradients(:, node, to) + weight(i)*at%motion(j, 0)*at%foot%normal(:d)
         shares(node, to) = shares(node, to) + weight(i)*at%load(j, 0)
       end associate

@@ -211,32 +211,36 @@ class SurfaceSliding:
         self._find_nodes()
 
     def _find_nodes(self) -> None:
-        """Set the nodes of each point, those of its samples and of its slip, and the positions of the former.
+        """Set groups of samples on the same face and piece, the nodes of each point, which are those of its groups and
+        of its slip, and the positions of the former among them.
 
         Pairs of a sample and a point have a nonzero weight; a point without contact has its own node only.
         """
-        row = np.arange(len(self._pair.secondary))
-        self._sample_of, column = np.nonzero((self._weights > 0.0) & self.above[self._point])
-        sample = self._sample_of
-        self._point_of, self._weight_of = self._point[sample, column], self._weights[sample, column]
-        touching = row[self.above]
-        of_samples = self._key(self._point_of[:, None], self._projected.nodes_of()[sample])
+        pair, piece, above = self._pair, self._projected.piece, self.above
+        self._sample_of, corner = np.nonzero((self._weights > 0.0) & above[self._point])
+        sample = self._sample_of, corner
+        self._point_of, self._weight_of = self._point[sample], self._weights[sample]
+        used = np.flatnonzero(np.bincount(self._sample_of, minlength=len(piece)))
+        keys = self._face[used] * len(self._main.nodes) + piece[used]
+        order = np.argsort(keys, kind="stable")
+        self._used, keys = used[order], keys[order]
+        starts = np.append(True, keys[1:] != keys[:-1])[: len(keys)]
+        self._first = np.append(np.flatnonzero(starts), len(keys))
+        of_sample = np.zeros(len(piece), dtype=np.int64)
+        of_sample[self._used] = np.cumsum(starts) - 1
+        self._corner_of = of_sample[self._sample_of] * self._point.shape[1] + corner
+        first = self._used[self._first[:-1]]
+        self._corners, touching = pair.corners[self._face[first]], np.flatnonzero(above)
+        own = np.arange(len(pair.secondary)) * self._base
+        of_groups = self._key(self._corners[:, :, None], self._projected.nodes_of()[first][:, None])
         of_slips = self._key(touching[:, None], self._slip.nodes[touching])
-        keys = np.unique(np.concatenate([row * self._base, of_samples.ravel(), of_slips.ravel()]))
-        first = np.searchsorted(keys, row * self._base)
+        keys = _distinct(own, of_groups[above[self._corners]], of_slips)
         if not np.array_equal(keys, self._keys):
             self._keys = keys
             self.nodes = self._rows(keys)[1]
             self.known = self._find_known()
-        self._positions = np.searchsorted(keys, of_samples) - first[self._point_of][:, None]
-        self._group()
-
-    def _group(self) -> None:
-        """Set the groups of samples with the same nodes: samples in their order, and the first one of each."""
-        keys = self._face * len(self._main.nodes) + self._projected.piece
-        used = np.unique(self._sample_of)
-        self._used = used[np.argsort(keys[used], kind="stable")]
-        self._first = np.append(np.unique(keys[self._used], return_index=True)[1], len(self._used))
+        positions = np.searchsorted(keys, of_groups) - np.searchsorted(keys, own)[self._corners][:, :, None]
+        self._positions = positions.reshape(-1, of_groups.shape[2])
 
     def _key(self, point: IntArray, nodes: IntArray) -> IntArray:
         """Return a unique number for a point and a node, smallest for its own node."""
@@ -258,16 +262,14 @@ class SurfaceSliding:
     def reach(self) -> None:
         """Update `links` to the current nodes of each point, and those of neighbouring pieces."""
         self._slip.reach()
-        surface, pieces = self._surface, self._projected.piece[self._used]
+        surface, pieces = self._surface, self._projected.piece[self._used[self._first[:-1]]]
         ring = surface.ring_of(pieces)
         nodes = surface.nodes_of(ring.ravel())
-        around = np.zeros((len(self._face), ring.shape[1] * nodes.shape[1]), dtype=np.int64)
-        around[self._used] = nodes.reshape(len(pieces), around.shape[1])
+        around = self._key(self._corners[:, :, None], nodes.reshape(len(pieces), 1, ring.shape[1] * nodes.shape[1]))
         point, beside = self._slip.links()
         near = self.above[point]
-        of_samples = self._key(self._point_of[:, None], around[self._sample_of])
-        both = of_samples, self._key(point[near, None], beside[near])
-        self._linked = np.unique(np.concatenate([self._keys, *(keys.ravel() for keys in both)]))
+        of_slips = self._key(point[near, None], beside[near])
+        self._linked = _distinct(self._keys, around[self.above[self._corners]], of_slips)
         self.known = True
 
     def links(self) -> tuple[IntArray, IntArray]:
@@ -279,9 +281,9 @@ class SurfaceSliding:
         self._slip.clearances(u, nlgeom=nlgeom)
         projected = self._projected
         samples = _contact.Samples(projected.shapes, projected.piece, projected.natural)
-        pairs = self._sample_of, self._point_of, self._weight_of, self._positions
+        pairs = self._sample_of, self._point_of, self._weight_of, self._corner_of
         gradients, self._shares = _contact.means(
-            self._main, self._coordinates + self._moved, samples, pairs, self.nodes.shape
+            self._main, self._coordinates + self._moved, samples, pairs, self._positions, self.nodes.shape
         )
         gradient = flat_rows(gradients)
         rounding = rounding_of(self._coordinates, self._moved)
@@ -319,7 +321,7 @@ class SurfaceSliding:
         slips = self._slip.slips(u, change, elastic)
         m, n, dimension = *self.nodes.shape, self._dimension
         conjugate = np.einsum("mn,td->mtnd", self._shares, np.eye(dimension)).reshape(m, dimension, n * dimension)
-        return replace(slips, by=slips.by * self.above[:, None, None], conjugate=conjugate)
+        return replace(slips, conjugate=conjugate)
 
     def commit(self) -> None:
         """Commit the slips at the end of a converged increment."""
@@ -334,6 +336,12 @@ class SurfaceSliding:
         self._slip.resume(saved["slip"])
         self._linked, self._sampled = saved["linked"], None
         self.known = self._find_known()
+
+
+def _distinct(*keys: IntArray) -> IntArray:
+    """Return the distinct ones of keys that are at least 0, in ascending order."""
+    ordered = np.sort(np.concatenate([values.ravel() for values in keys]))
+    return ordered[np.diff(ordered, prepend=-1) > 0]
 
 
 def _sums(positions: IntArray, values: FloatArray, count: int) -> FloatArray:

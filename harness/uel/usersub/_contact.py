@@ -196,6 +196,7 @@ def means(
     coordinates: FloatArray,
     samples: Samples,
     pairs: tuple[IntArray, IntArray, FloatArray, IntArray],
+    positions: IntArray,
     shape: tuple[int, int],
 ) -> tuple[FloatArray, FloatArray]:
     """Compute the means of points over samples.
@@ -205,8 +206,10 @@ def means(
     pieces, coordinates, samples
         Surface in its current position, and samples above it.
     pairs
-        Samples (r,), which ascend, and points (r,) to which they belong, with weights (r,), and the positions
-        (r, l + k) of the nodes of the sample, those of the secondary surface first, among those of the point.
+        Samples (r,), which ascend, and points (r,) to which they belong, with weights (r,), and rows (r,) of
+        `positions`.
+    positions
+        (p, l + k) of the nodes of the sample, those of the secondary surface first, among those of the point.
     shape
         Numbers of points m and of nodes n of each.
 
@@ -216,8 +219,7 @@ def means(
         Gradients (m, n, d) of the clearances, and shares (m, n) of the nodes in a force.
     """
     gradients, shares = np.zeros((*shape, coordinates.shape[1])), np.zeros(shape)
-    sample, point, weight, positions = pairs
-    if len(sample):
+    if len(pairs[0]):
         host.host_contact_means(
             pieces.shapes.T,
             pieces.loads.T,
@@ -226,9 +228,7 @@ def means(
             samples.own.T,
             samples.piece,
             samples.natural.T,
-            sample,
-            point,
-            weight,
+            *pairs,
             positions.T,
             gradients.T,
             shares.T,

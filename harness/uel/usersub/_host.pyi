@@ -371,6 +371,7 @@ def host_contact_means(
     sample: NDArray[np.int64],
     point: NDArray[np.int64],
     weight: NDArray[np.float64],
+    place: NDArray[np.int64],
     positions: NDArray[np.int64],
     gradients: NDArray[np.float64],
     shares: NDArray[np.float64],

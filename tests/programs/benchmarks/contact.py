@@ -3,9 +3,9 @@
 """Contact of two plates of bricks, with NLGEOM and friction, against their element loop: part of `make bench`.
 
 Both take turns in one run. Measured is an increment of four passes with matrices, of which the first projects the
-points onto the entire surface, as in a job: contact per point, and the element loop per brick. All points are closed and
-slip. Judged is the median of the ratios; the number of points should not change it. Times are those of the processor in
-this thread.
+points onto the entire surface, as in a job: contact per point, and the element loop per brick. All points are closed
+and slip. Judged is the median of the ratios; the number of points should not change it. Times are those of the
+processor in this thread.
 """
 
 from __future__ import annotations
