@@ -67,8 +67,8 @@ class SurfaceSliding:
         self._moved = np.zeros_like(self._coordinates)
         # displacements at the last sampling
         self._sampled: FloatArray | None = self._moved
-        # contact of the samples at the last mean
-        self._touched: tuple[NDArray[np.bool_], IntArray] | None = None
+        # contact of the samples at the last mean, and nodes of the slips
+        self._touched: tuple[NDArray[np.bool_], IntArray, IntArray] | None = None
         if pair.dimension == 3:
             self._place(*self._in_space())
         self._sample()
@@ -191,7 +191,7 @@ class SurfaceSliding:
         projected = self._projected
         self._gaps = projected.values(self._moved)
         here = projected.above & self._unobstructed
-        touched = here, projected.piece
+        touched = here, projected.piece, self._slip.nodes
         if self._touched is None or not all(map(np.array_equal, self._touched, touched)):
             self._touched = touched
             self._weigh(here)
@@ -211,28 +211,19 @@ class SurfaceSliding:
         self._find_nodes()
 
     def _find_nodes(self) -> None:
-        """Set groups of samples on the same face and piece, the nodes of each point, which are those of its groups and
-        of its slip, and the positions of the former among them.
+        """Set the nodes of each point, which are those of its groups of samples and of its slip, and the positions of
+        the former among them.
 
         Pairs of a sample and a point have a nonzero weight; a point without contact has its own node only.
         """
-        pair, piece, above = self._pair, self._projected.piece, self.above
+        pair, above = self._pair, self.above
         self._sample_of, corner = np.nonzero((self._weights > 0.0) & above[self._point])
-        sample = self._sample_of, corner
-        self._point_of, self._weight_of = self._point[sample], self._weights[sample]
-        used = np.flatnonzero(np.bincount(self._sample_of, minlength=len(piece)))
-        keys = self._face[used] * len(self._main.nodes) + piece[used]
-        order = np.argsort(keys, kind="stable")
-        self._used, keys = used[order], keys[order]
-        starts = np.append(True, keys[1:] != keys[:-1])[: len(keys)]
-        self._first = np.append(np.flatnonzero(starts), len(keys))
-        of_sample = np.zeros(len(piece), dtype=np.int64)
-        of_sample[self._used] = np.cumsum(starts) - 1
-        self._corner_of = of_sample[self._sample_of] * self._point.shape[1] + corner
-        first = self._used[self._first[:-1]]
-        self._corners, touching = pair.corners[self._face[first]], np.flatnonzero(above)
+        self._point_of, self._weight_of = self._point[self._sample_of, corner], self._weights[self._sample_of, corner]
+        group = self._find_groups()
+        self._corner_of = group[self._sample_of] * self._point.shape[1] + corner
+        self._corners, touching = pair.corners[self._face[self._first_of_groups]], np.flatnonzero(above)
         own = np.arange(len(pair.secondary)) * self._base
-        of_groups = self._key(self._corners[:, :, None], self._projected.nodes_of()[first][:, None])
+        of_groups = self._key(self._corners[:, :, None], self._nodes_of_groups[:, None])
         of_slips = self._key(touching[:, None], self._slip.nodes[touching])
         keys = _distinct(own, of_groups[above[self._corners]], of_slips)
         if not np.array_equal(keys, self._keys):
@@ -241,6 +232,19 @@ class SurfaceSliding:
             self.known = self._find_known()
         positions = np.searchsorted(keys, of_groups) - np.searchsorted(keys, own)[self._corners][:, :, None]
         self._positions = positions.reshape(-1, of_groups.shape[2])
+
+    def _find_groups(self) -> IntArray:
+        """Set the groups of samples with the same face and piece; return the group (q,) of each sample in a pair."""
+        piece, group = self._projected.piece, np.zeros(len(self._face), dtype=np.int64)
+        used = np.flatnonzero(np.bincount(self._sample_of, minlength=len(piece)))
+        keys = self._face[used] * len(self._main.nodes) + piece[used]
+        self._used, keys = used[np.argsort(keys, kind="stable")], np.sort(keys)
+        starts = np.diff(keys, prepend=-1) > 0
+        group[self._used] = np.cumsum(starts) - 1
+        self._starts = np.append(np.flatnonzero(starts), len(keys))
+        self._first_of_groups = self._used[self._starts[:-1]]
+        self._nodes_of_groups = self._projected.nodes_of()[self._first_of_groups]
+        return group
 
     def _key(self, point: IntArray, nodes: IntArray) -> IntArray:
         """Return a unique number for a point and a node, smallest for its own node."""
@@ -262,7 +266,7 @@ class SurfaceSliding:
     def reach(self) -> None:
         """Update `links` to the current nodes of each point, and those of neighbouring pieces."""
         self._slip.reach()
-        surface, pieces = self._surface, self._projected.piece[self._used[self._first[:-1]]]
+        surface, pieces = self._surface, self._projected.piece[self._first_of_groups]
         ring = surface.ring_of(pieces)
         nodes = surface.nodes_of(ring.ravel())
         around = self._key(self._corners[:, :, None], nodes.reshape(len(pieces), 1, ring.shape[1] * nodes.shape[1]))
@@ -305,14 +309,13 @@ class SurfaceSliding:
         of_pairs = self._weight_of[:, None] * forces[self._point_of]
         of_samples = np.stack([_sums(self._sample_of, values, q) for values in of_pairs.T], axis=1)[used]
         samples = _contact.Samples(projected.shapes[used], projected.piece[used], projected.natural[used])
-        nodes = projected.nodes_of()[used[self._first[:-1]]]
-        unknowns = flat_rows(self._slip.numbers[nodes]).astype(np.int32)
+        unknowns = flat_rows(self._slip.numbers[self._nodes_of_groups]).astype(np.int32)
         _contact.add_stiffness(
             self._main,
             self._coordinates + self._moved,
             samples,
             (self._gaps[used], of_samples[:, 0], of_samples[:, 1:]),
-            (self._first, unknowns),
+            (self._starts, unknowns),
             matrix,
         )
 

@@ -76,6 +76,29 @@ def test_matrix_by_differences(call, dimension, stiffness, friction, moved):
         np.testing.assert_allclose(found, found.T, atol=1e-12 * np.abs(found).max())
 
 
+def test_a_node_passes_to_another_face_before_its_samples(call):
+    """Its slip then depends on nodes that none of its samples touch."""
+    rng = np.random.default_rng(5)
+    pair, coordinates = pair_of(3, rng, stiffness=40.0, friction=0.3)
+    points = Points(call, pair, coordinates, range(1, 4))
+    block, upper = points.block, np.unique(pair.secondary)
+    # faces of the lower strip meet at x = 0.9; the last nodes of the upper one pass there, samples are 0.09 behind
+    start, du = np.zeros((2, *coordinates.shape))
+    start[upper, 0], du[upper, 0] = 0.895 - 1.8, 0.01
+    still = np.zeros(points.size)
+    points.evaluate(points.first, still, still)
+    points.evaluate(points.second, start.ravel(), start.ravel())
+    block.commit()
+    points.evaluate(points.first, start.ravel(), still)
+    beyond = np.flatnonzero(coordinates[:, 0] > 2.0)
+    assert not np.isin(block.nodes, beyond).any()
+    points.evaluate(points.second, (start + du).ravel(), du.ravel())
+    last = np.isin(block.secondary, upper[coordinates[upper, 0] > 1.7])
+    touches = last & (block.output[1] > 0.0)
+    assert touches.any()
+    assert np.isin(block.nodes[touches], beyond).any(axis=1).all()
+
+
 @pytest.mark.parametrize("friction", [0.0, 0.3])
 @pytest.mark.parametrize("dimension", [2, 3])
 def test_bodies_that_turn(call, dimension, friction):
