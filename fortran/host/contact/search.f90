@@ -37,16 +37,17 @@ contains
     real(dp), intent(in), contiguous :: shapes(:, :, :)   !< (terms, nodes, faces) coefficients of the shape functions
     integer(i8), intent(in), contiguous :: nodes(:, :)   !< from 0
     real(dp), intent(in), contiguous :: coordinates(:, :)
-    integer :: p, count, terms, d
+    real(dp) :: corners(size(coordinates, 1), size(nodes, 1))
+    integer :: p, count, terms
     terms = size(shapes, 1)
     count = size(nodes, 2)
-    d = size(coordinates, 1)
-    surface%dimension = d
+    surface%dimension = size(coordinates, 1)
     allocate (surface%polynomials(3, terms, count), surface%sizes(count), surface%angles(count))
     allocate (surface%box_low(3, count), surface%box_high(3, count), surface%axes(3, count))
     do p = 1, count
       surface%polynomials(:, :, p) = polynomial_of(shapes(:, :, p), nodes(:, p), coordinates)
-      call bound(surface, p, coordinates(:, nodes(:, p) + 1))
+      corners = coordinates(:, nodes(:, p) + 1)
+      call bound(surface, p, corners)
     end do
   end subroutine new_surface
 

@@ -35,9 +35,11 @@ subroutine host_contact_sizes(nodes, coordinates, sizes, k, m, d, n)
   integer(i8), intent(in) :: nodes(k, m)
   real(dp), intent(in) :: coordinates(d, n)
   real(dp), intent(out) :: sizes(m)
+  real(dp) :: corners(d, k)
   integer :: i
   do i = 1, m
-    sizes(i) = size_of(coordinates(:, nodes(:, i) + 1))
+    corners = coordinates(:, nodes(:, i) + 1)
+    sizes(i) = size_of(corners)
   end do
 end subroutine host_contact_sizes
 
