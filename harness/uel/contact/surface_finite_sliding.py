@@ -104,6 +104,7 @@ class SurfaceSliding:
         self._moved = self._slip.moved
         if not first:
             self._projected.search(self._moved, self._outward(), everywhere=False)
+            self._gaps = self._projected.values(self._moved)
             self._average()
         elif self._sampled is None or not np.array_equal(self._sampled, self._moved):
             self._sample()
@@ -134,6 +135,7 @@ class SurfaceSliding:
         near, before = self._surface.near(points, self._moved), np.zeros(len(points), dtype=np.int64)
         hits = self._surface.search(points, self._outward(), self._moved, before, near)
         projected.piece, projected.natural, projected.above = hits.piece, hits.natural, hits.above
+        self._gaps = projected.values(self._moved)
         self._unobstructed = self._find_unobstructed(points, near)
         sides = (pair.own, (self._face, self._natural)), (self._main, (projected.piece, projected.natural))
         self._outside = sum(
@@ -149,12 +151,11 @@ class SurfaceSliding:
 
         Arguments are coordinates (q, d) of the samples, and pieces (q, c) near them.
         """
-        values = self._projected.values(self._moved)
-        unobstructed = values >= -self._pair.deepest[self._face]
-        behind = np.flatnonzero(unobstructed & (values < 0.0) & self._projected.above)
+        unobstructed = self._gaps >= -self._pair.deepest[self._face]
+        behind = np.flatnonzero(unobstructed & (self._gaps < 0.0) & self._projected.above)
         if len(behind):
             nearest = self._surface.distances(points[behind], self._moved, near[behind])
-            unobstructed[behind] = nearest >= -values[behind] * (1.0 - NEARER)
+            unobstructed[behind] = nearest >= -self._gaps[behind] * (1.0 - NEARER)
         return unobstructed
 
     def _in_plane(self) -> tuple[IntArray, FloatArray, FloatArray]:
@@ -189,7 +190,6 @@ class SurfaceSliding:
     def _average(self) -> None:
         """Compute clearances and areas of the points, and the weights of the samples in them."""
         projected = self._projected
-        self._gaps = projected.values(self._moved)
         here = projected.above & self._unobstructed
         touched = here, projected.piece, self._slip.nodes
         if self._touched is None or not all(map(np.array_equal, self._touched, touched)):
