@@ -94,7 +94,7 @@ class ContactBlock(Contributor):
 
     def number(self, find: Find, equations: NDArray[np.int32]) -> None:
         """Set the numbers of the unknowns, of which the last is the multiplier of a point, if it has one."""
-        self._find, self._multipliers = find, equations[:, -1]
+        self._find, self._multipliers, self._numbered = find, equations[:, -1], (None, None)
         self._number()
 
     def _number(self) -> None:

@@ -4,10 +4,10 @@
 
 The foot point X of a node x is its closest point projection on the surface: x - X = g n, so that dg = n W du with the
 motion W du of the node relative to the foot point; fortran/host/contact/derivatives.f90 has the derivatives of foot
-point and normal. The weights of forces on the nodes of the
-piece differ from W where the surface is smoothed. The slip of an increment is the motion of the node relative to its
-final foot point. It is computed in the configuration at the start of the increment, where the elastic slip rotates with
-the normal, and is convected with the surface: bodies that move together do not slip.
+point and normal. The weights of forces on the nodes of the piece differ from W where the surface is smoothed. The slip
+of an increment is the motion of the node relative to its final foot point. It is computed in the configuration at the
+start of the increment, where the elastic slip rotates with the normal, and is convected with the surface: bodies that
+move together do not slip.
 """
 
 from __future__ import annotations
@@ -55,7 +55,10 @@ class Projection:
     tilt: FloatArray
 
     def stiffness(self, points: IntArray, normal: FloatArray, friction: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return factors (r, k, u) whose products are the derivatives of nodal forces, see `Motion.add_stiffness`."""
+        """Return factors (r, k, u) whose products are the derivatives of nodal forces, see `Motion.add_stiffness`.
+
+        The motions may be any here; fortran/host/contact/samples.f90 does the same with shares of nodes.
+        """
         force = normal[:, None] * self.foot.normal[points] - friction
         turned = normal[:, None, None] * self.foot.tangents[points]
         left = [
