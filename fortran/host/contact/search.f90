@@ -134,10 +134,13 @@ contains
       hits(c) = reach(surface, candidates(c), point, outward)
       nearest = min(nearest, hits(c)%distance)
     end do
+    ! at coordinates that are NaN
+    hit = hits(first)
     do c = 1, size(candidates)
-      if (hits(c)%distance <= nearest + margin(c)) exit
+      if (.not. hits(c)%distance <= nearest + margin(c)) cycle
+      hit = hits(c)
+      exit
     end do
-    hit = hits(c)
   end function find_nearest
 
   !> No normal of the face faces the point.

@@ -77,3 +77,16 @@ def test_faces_that_leave_the_box_of_their_nodes():
     found, shares = surface.nearest(np.array([[0.0, 0.0, 2.3]]))
     np.testing.assert_array_equal(np.sort(found[0]), np.arange(8))
     np.testing.assert_allclose(shares @ nodes[found[0]], [[0.0, 0.0, 2.0]], atol=1e-12)
+
+
+def test_coordinates_that_are_not_finite():
+    """A diverging iteration passes NaN to the search: it returns pieces of the surface, and nothing touches."""
+    x, y = np.meshgrid(np.arange(3.0), np.arange(3.0), indexing="ij")
+    nodes, n = np.stack([x, y, 0 * x], axis=-1).reshape(-1, 3), np.arange(9).reshape(3, 3)
+    four = np.stack([n[:-1, :-1], n[1:, :-1], n[1:, 1:], n[:-1, 1:]], axis=-1).reshape(-1, 4)
+    surface = FaceSurface(make_pieces([four], nodes, 0.0, 0.0), nodes, FACING)
+    away, before = np.full_like(nodes, np.nan), np.array([2, 1])
+    for outward in (np.zeros((2, 3)), np.array([[0.0, 0.0, -1.0]] * 2)):
+        piece, _, above = surface.track(away[:2], outward, away, before, everywhere=False)
+        assert np.isin(piece, range(4)).all()
+        assert not above.any()
