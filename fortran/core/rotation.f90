@@ -293,16 +293,16 @@ contains
     c = [a(2)*b(3) - a(3)*b(2), a(3)*b(1) - a(1)*b(3), a(1)*b(2) - a(2)*b(1)]
   end function cross
 
-  !> Matrix that takes stress, in the plane (11, 22, 12), in space (11, 22, 33, 12, 13, 23), to the traction sigma.n in the
-  !> components of the rows of a frame, of which n is the second one.
+  !> The traction sigma.n, in the components of the rows of a frame of which n is the second one, by the stress, in the plane (11,
+  !> 22, 12), in space (11, 22, 33, 12, 13, 23): (stresses, components).
   pure function traction_operator(dim, frame) result(matrix)
     integer, intent(in) :: dim                !< 2 or 3
     real(dp), intent(in) :: frame(3, 3)       !< rows tau, n and zero, or s, n and t
-    real(dp) :: matrix(dim, 3*(dim - 1))
+    real(dp) :: matrix(3*(dim - 1), dim)
     integer :: i
 
     do i = 1, dim
-      matrix(i, :) = symmetric_product(dim, frame(i, :), frame(2, :))
+      matrix(:, i) = symmetric_product(dim, frame(i, :), frame(2, :))
     end do
   end function traction_operator
 

@@ -5,9 +5,51 @@ module core_small_matrix
   use core_kinds, only: dp
   implicit none(type, external)
   private
-  public :: determinant, cofactors, invert, invert_general
+  public :: add_product, determinant, cofactors, invert, invert_general
 
 contains
+
+  !> Adds a transpose(b) to a matrix: loops, since for so few entries matmul costs more than the products.
+  pure subroutine add_product(n, m, terms, a, b, matrix)
+    integer, intent(in) :: n, m, terms
+    real(dp), intent(in) :: a(n, terms), b(m, terms)
+    real(dp), intent(inout) :: matrix(n, m)
+
+    ! a compiler makes more of loops whose length it knows
+    select case (n)
+    case (8)
+      call add_columns(8, m, terms, a, b, matrix)
+    case (12)
+      call add_columns(12, m, terms, a, b, matrix)
+    case (16)
+      call add_columns(16, m, terms, a, b, matrix)
+    case (24)
+      call add_columns(24, m, terms, a, b, matrix)
+    case (48)
+      call add_columns(48, m, terms, a, b, matrix)
+    case default
+      call add_columns(n, m, terms, a, b, matrix)
+    end select
+  end subroutine add_product
+
+  !> The same with its sizes.
+  pure subroutine add_columns(n, m, terms, a, b, matrix)
+    integer, value :: n, m, terms
+    real(dp), intent(in) :: a(n, terms), b(m, terms)
+    real(dp), intent(inout) :: matrix(n, m)
+    integer :: j, k, whole
+
+    whole = 4*(terms/4)
+    do j = 1, m
+      do k = 1, whole, 4
+        matrix(:, j) = matrix(:, j) + a(:, k)*b(j, k) + a(:, k + 1)*b(j, k + 1) + a(:, k + 2)*b(j, k + 2) &
+          + a(:, k + 3)*b(j, k + 3)
+      end do
+      do k = whole + 1, terms
+        matrix(:, j) = matrix(:, j) + a(:, k)*b(j, k)
+      end do
+    end do
+  end subroutine add_columns
 
   !> Determinant of a matrix of two or three rows.
   pure function determinant(a) result(value)

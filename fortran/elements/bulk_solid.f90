@@ -199,14 +199,15 @@ contains
     call strain_matrix(dim, dim, nodes, transpose(gradient), b)
   end subroutine plain_strains
 
-  !> Matrix that takes the strain of a solid to sigma.n in the components of a frame.
+  !> sigma.n of a solid, in the components of a frame, by its strain: (strains, components).
   pure function solid_traction(dim, solid, frame) result(matrix)
     integer, intent(in) :: dim
     type(solid_type), intent(in) :: solid
     real(dp), intent(in) :: frame(3, 3)          !< rows tau, n and zero, or s, n and t
-    real(dp) :: matrix(dim, 3*(dim - 1))
+    real(dp) :: matrix(3*(dim - 1), dim)
 
-    matrix = matmul(traction_operator(dim, frame), solid%stiffness(1:3*(dim - 1), 1:3*(dim - 1)))
+    ! D is symmetric
+    matrix = matmul(solid%stiffness(1:3*(dim - 1), 1:3*(dim - 1)), traction_operator(dim, frame))
   end function solid_traction
 
   !> Area or volume.
@@ -276,7 +277,7 @@ contains
       do i = 1, size(shares, 1)
         if (.not. abs(shares(i, k)) > 0.0_dp) cycle
         traction(dim*(k - 1) + 1:dim*k, :) = traction(dim*(k - 1) + 1:dim*k, :) &
-          + (sqrt(areas(k))*shares(i, k))*matmul(solid_traction(dim, solid, frames(:, :, k)), transpose(b(:, :, i)))
+          + (sqrt(areas(k))*shares(i, k))*transpose(matmul(b(:, :, i), solid_traction(dim, solid, frames(:, :, k))))
       end do
     end do
     call face_eigenvalue(coordinates, energy, traction, 3*(dim - 1)*size(volumes) <= dim*(solid%nodes) - 3*(dim - 1), lambda, &

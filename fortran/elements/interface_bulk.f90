@@ -6,6 +6,7 @@ module elements_interface_bulk
   use core_cells, only: cell_functions, cell_point, corners_of, is_linear, node_parents, point_shares, points_of_cell
   use core_kinds, only: dp
   use core_quadrature, only: gauss_rule, gauss_abscissa
+  use core_small_matrix, only: add_product
   use core_status, only: status_type, ok
   use cohesive_shear, only: mode_of
   use materials_spectral_norm, only: spectral_norm
@@ -119,8 +120,8 @@ contains
     used = nitsche_parameters(given, bounds, greatest)
   end subroutine stabilise
 
-  !> B of each point: the matrix that takes the displacements of both elements to <sigma>.n = gamma_1 sigma_1.n + gamma_2 sigma_2.n
-  !> of (18) in the components of the frame there, less the traction of the thermal strains, plus that of the initial stress.
+  !> B of each point, transposed: <sigma>.n = gamma_1 sigma_1.n + gamma_2 sigma_2.n of (18) in the components of the frame there, by
+  !> the displacements of both elements; and the traction without them, of the initial stress less that of the thermal strains.
   pure subroutine bulk_operators(sampling, dim, places, gamma_bottom, solids, faces, initial, coordinates, matrices, at_rest, &
     status)
     integer, intent(in) :: sampling
@@ -131,7 +132,7 @@ contains
     integer, intent(in) :: faces(:, :)                  !< nodes of the bottom and the top face, a column each
     real(dp), intent(in) :: initial(3)                  !< traction of the initial stress, (s, n, t)
     real(dp), intent(in) :: coordinates(:, :)           !< original coordinates, (2 or 3, nodes), length
-    real(dp), intent(out) :: matrices(:, :, :)          !< (2 or 3, unknowns, points)
+    real(dp), intent(out) :: matrices(:, :, :)          !< (unknowns, 2 or 3, points)
     real(dp), intent(out) :: at_rest(:, :)              !< traction without displacements, (2 or 3, points)
     type(status_type), intent(out) :: status            !< inside_out: item 1 for the bottom element, 2 for the top one
     real(dp) :: weights(2, 2)
@@ -143,7 +144,7 @@ contains
     do side = 1, 2
       associate (first => first_node(solids, side), nodes => solids(side)%nodes)
         call side_operators(sampling, dim, places, weights(:, side), solids(side), faces(:, side) - first + 1, &
-          coordinates(:, first:first + nodes - 1), matrices(:, dim*(first - 1) + 1:dim*(first + nodes - 1), :), at_rest, status)
+          coordinates(:, first:first + nodes - 1), matrices(dim*(first - 1) + 1:dim*(first + nodes - 1), :, :), at_rest, status)
       end associate
       if (status%code == ok) cycle
       status%item = side
@@ -162,11 +163,14 @@ contains
     real(dp), intent(out) :: matrices(:, :, :)
     real(dp), intent(inout) :: at_rest(:, :)
     type(status_type), intent(out) :: status
-    real(dp) :: of_strain(dim, 3*(dim - 1)), heating
+    real(dp) :: of_strain(3*(dim - 1), dim), heating
     real(dp) :: samples(dim, max(size(places), most_samples)), shares(max(size(places), most_samples), size(places))
     real(dp) :: b(dim*solid%nodes, 3*(dim - 1), max(size(places), most_samples)), strain(dim*solid%nodes, 3*(dim - 1))
+    real(dp) :: traction(dim*solid%nodes, dim)
     integer :: i, j, k, n
+    logical :: expands
 
+    expands = maxval(abs(solid%expansion)) > 0.0_dp
     call sample(sampling, dim, solid, face, places, samples, shares, n)
     call strains_at(dim, solid, coordinates, samples(:, 1:n), b(:, :, 1:n), status)
     if (status%code /= ok) return
@@ -176,14 +180,16 @@ contains
       do i = 1, n
         if (.not. abs(shares(i, k)) > 0.0_dp) cycle
         strain = strain + shares(i, k)*b(:, :, i)
-        heating = heating + shares(i, k)*heating_at(dim, solid, samples(:, i))
+        if (expands) heating = heating + shares(i, k)*heating_at(dim, solid, samples(:, i))
       end do
       of_strain = solid_traction(dim, solid, places(k)%frame)
       do j = 1, dim
-        of_strain(j, :) = weights(mode_of(j))*of_strain(j, :)
+        of_strain(:, j) = weights(mode_of(j))*of_strain(:, j)
       end do
-      matrices(:, :, k) = matmul(of_strain, transpose(strain))
-      at_rest(:, k) = at_rest(:, k) - matmul(of_strain, heating*solid%expansion(1:size(of_strain, 2)))
+      traction = 0.0_dp
+      call add_product(size(strain, 1), dim, size(strain, 2), strain, transpose(of_strain), traction)
+      matrices(:, :, k) = traction
+      if (expands) at_rest(:, k) = at_rest(:, k) - matmul(heating*solid%expansion(1:size(of_strain, 1)), of_strain)
     end do
   end subroutine side_operators
 

@@ -19,16 +19,20 @@ module elements_interface_faces
   implicit none(type, external)
   private
   public :: interface_place, measure_interface, place_points, central_frame, jump_operator, separation_at
-  public :: face_shape, face_slope, most_apart
+  public :: most_apart
+
+  !> Nodes of a face, at most.
+  integer, parameter :: most_nodes = 8
 
   !> An integration point of the interface.
   type :: interface_place
     real(dp) :: parent(2)     !< along the interface, each in (-1, 1)
+    real(dp) :: shape(most_nodes)      !< shape functions of the nodes of a face
+    real(dp) :: slope(most_nodes, 2)   !< their derivatives by the parent coordinates
     real(dp) :: position(3)   !< original one
     real(dp) :: frame(3, 3)   !< rows s, n and t; in the plane tau and n, and zero
     real(dp) :: area          !< of the interface that it stands for; in the plane its length
   end type interface_place
-
 
 contains
 
@@ -101,23 +105,26 @@ contains
     real(dp), intent(in) :: middle(2, nodes)
     type(interface_place), intent(inout) :: place
     type(status_type), intent(inout) :: status
-    real(dp), dimension(nodes) :: s, w, shape, shape_slope   ! variables: function results in matmul would be allocated
+    real(dp), dimension(nodes) :: s, w
     real(dp) :: slope(2), along, frame(2, 2)
+    integer :: a
     real(dp), parameter :: origin(2) = 0.0_dp
 
     s = line_points(nodes, rule)
     w = line_weights(nodes, rule)
-    shape_slope = line_slope(nodes, s(k))
-    slope = matmul(middle, shape_slope)
+    place%parent = [s(k), 0.0_dp]
+    call face_functions(2, nodes, place%parent, place%shape, place%slope)
+    slope = 0.0_dp
+    do a = 1, nodes
+      place%position(1:2) = place%position(1:2) + place%shape(a)*middle(:, a)
+      slope = slope + place%slope(a, 1)*middle(:, a)
+    end do
     ! a middle node too close to an end folds the edge back
     along = dot_product(slope, middle(:, 2) - middle(:, 1))
     if (.not. along > 0.0_dp) then
       status = status_type(zero_length, 0, along, 0.0_dp)
       return
     end if
-    place%parent = [s(k), 0.0_dp]
-    shape = line_shape(nodes, s(k))
-    place%position(1:2) = matmul(middle, shape)
     call line_frame(origin, slope, frame, place%area)
     place%frame = 0.0_dp
     place%frame(1:2, 1:2) = frame
@@ -132,7 +139,7 @@ contains
     type(status_type), intent(inout) :: status
     real(dp), dimension(merge(2, 3, nodes <= 4)) :: s, w
     real(dp) :: slopes(3, 2), weight, upright, degrees
-    integer :: at(2)
+    integer :: at(2), a
 
     if (corners_of(2, nodes) == 3) then
       call triangle_point(nodes, rule, k, place%parent, weight)
@@ -145,8 +152,13 @@ contains
       place%parent = s(at)
       weight = product(w(at))
     end if
-    place%position = matmul(middle, face_shape(3, nodes, place%parent))
-    slopes = matmul(middle, face_slope(3, nodes, place%parent))
+    call face_functions(3, nodes, place%parent, place%shape, place%slope)
+    slopes = 0.0_dp
+    do a = 1, nodes
+      place%position = place%position + place%shape(a)*middle(:, a)
+      slopes(:, 1) = slopes(:, 1) + place%slope(a, 1)*middle(:, a)
+      slopes(:, 2) = slopes(:, 2) + place%slope(a, 2)*middle(:, a)
+    end do
     call surface_frame(slopes(:, 1), slopes(:, 2), place%frame, place%area, direction, degrees)
     if (degrees < least_degrees) status = too_steep(degrees)
     ! a midside node too close to a corner, or a corner beyond the line of its neighbours, folds the surface back
@@ -174,62 +186,54 @@ contains
     real(dp), intent(in) :: direction(3)        !< for s; zero: none
     real(dp), intent(out) :: frame(3, 3)
     type(status_type), intent(out) :: status    !< ok, or along_normal
-    real(dp) :: slopes(3, 2), area, parent(2), degrees
+    real(dp) :: slopes(3, 2), area, parent(2), degrees, shape(most_nodes), slope(most_nodes, 2)
+    integer :: a
 
     parent = merge(1.0_dp/3.0_dp, 0.0_dp, corners_of(2, nodes) == 3)
-    slopes = matmul(0.5_dp*(bottom + top), face_slope(3, nodes, parent))
+    call face_functions(3, nodes, parent, shape, slope)
+    slopes = 0.0_dp
+    do a = 1, nodes
+      slopes(:, 1) = slopes(:, 1) + slope(a, 1)*(0.5_dp*(bottom(:, a) + top(:, a)))
+      slopes(:, 2) = slopes(:, 2) + slope(a, 2)*(0.5_dp*(bottom(:, a) + top(:, a)))
+    end do
     call surface_frame(slopes(:, 1), slopes(:, 2), frame, area, direction, degrees)
     status = status_type(ok, 0, 0.0_dp, 0.0_dp)
     if (degrees < least_degrees) status = too_steep(degrees)
   end subroutine central_frame
 
-  !> Shape functions of a face.
-  pure function face_shape(dim, nodes, parent) result(shape)
+  !> Shape functions of a face and their derivatives by the parent coordinates.
+  pure subroutine face_functions(dim, nodes, parent, shape, slope)
     integer, intent(in) :: dim, nodes
     real(dp), intent(in) :: parent(2)
-    real(dp) :: shape(nodes)
-    real(dp) :: slope(nodes, 2)
+    real(dp), intent(out) :: shape(most_nodes), slope(most_nodes, 2)   !< those of further nodes are zero
 
+    shape = 0.0_dp
+    slope = 0.0_dp
     if (dim == 2) then
-      shape = line_shape(nodes, parent(1))
+      shape(1:nodes) = line_shape(nodes, parent(1))
+      slope(1:nodes, 1) = line_slope(nodes, parent(1))
     else
-      call cell_functions(2, nodes, parent, shape, slope)
+      call cell_functions(2, nodes, parent, shape(1:nodes), slope(1:nodes, :))
     end if
-  end function face_shape
+  end subroutine face_functions
 
-  !> Their derivatives by the parent coordinates.
-  pure function face_slope(dim, nodes, parent) result(slope)
-    integer, intent(in) :: dim, nodes
-    real(dp), intent(in) :: parent(2)
-    real(dp) :: slope(nodes, dim - 1)
-    real(dp) :: shape(nodes)
-
-    if (dim == 2) then
-      slope(:, 1) = line_slope(nodes, parent(1))
-    else
-      call cell_functions(2, nodes, parent, shape, slope)
-    end if
-  end function face_slope
-
-  !> N: the matrix that takes the displacements of an element to the separation (tau, n) or (s, n, t) at a point.
+  !> N, transposed: the separation (tau, n) or (s, n, t) at a point by the displacements of an element.
   pure function jump_operator(dim, place, nodes, faces, unknowns) result(matrix)
     integer, intent(in) :: dim
     type(interface_place), intent(in) :: place
     integer, intent(in) :: nodes             !< of a face
     integer, intent(in) :: faces(nodes, 2)   !< nodes of the bottom and the top face in the element
     integer, intent(in) :: unknowns          !< of the element
-    real(dp) :: matrix(dim, unknowns)
-    real(dp) :: shape(nodes)
-    integer :: a, i, side, column
+    real(dp) :: matrix(unknowns, dim)
+    integer :: a, i, bottom, top
 
-    shape = face_shape(dim, nodes, place%parent)
     matrix = 0.0_dp
-    do side = 1, 2
+    do i = 1, dim
       do a = 1, nodes
-        column = dim*(faces(a, side) - 1)
-        do i = 1, dim
-          matrix(:, column + i) = merge(-shape(a), shape(a), side == 1)*place%frame(1:dim, i)
-        end do
+        bottom = dim*(faces(a, 1) - 1)
+        top = dim*(faces(a, 2) - 1)
+        matrix(bottom + 1:bottom + dim, i) = -place%shape(a)*place%frame(i, 1:dim)
+        matrix(top + 1:top + dim, i) = place%shape(a)*place%frame(i, 1:dim)
       end do
     end do
   end function jump_operator
@@ -243,16 +247,14 @@ contains
     real(dp), intent(in) :: u(:)             !< displacements of the element
     real(dp) :: separation(3)
     real(dp) :: jump(3)
-    real(dp) :: shape(nodes)
     integer :: a, i, top, bottom
 
-    shape = face_shape(dim, nodes, place%parent)
     jump = 0.0_dp
     do a = 1, nodes
       top = dim*(faces(a, 2) - 1)
       bottom = dim*(faces(a, 1) - 1)
       do i = 1, dim
-        jump(i) = jump(i) + shape(a)*(u(top + i) - u(bottom + i))
+        jump(i) = jump(i) + place%shape(a)*(u(top + i) - u(bottom + i))
       end do
     end do
     separation = matmul(place%frame, jump)

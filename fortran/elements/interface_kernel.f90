@@ -15,6 +15,7 @@
 module elements_interface_kernel
   use core_kinds, only: dp
   use core_rotation, only: about_mean
+  use core_small_matrix, only: add_product
   use core_status, only: status_type, ok
   use cohesive_parameters, only: law_parameters
   use cohesive_law, only: check_law, check_beta, raise_beta
@@ -68,8 +69,10 @@ contains
     type(point_response) :: response
     type(interface_place) :: here, turned(2)
     type(law_parameters) :: of_point
-    real(dp) :: bulk_of_points(dim, size(u), points), at_rest(dim, points)
-    real(dp), dimension(dim, size(u)) :: jump, bulk, by_displacement
+    ! operators by the displacements are transposed, (unknowns, components), so that loops over unknowns are along the memory
+    real(dp), dimension(size(u), dim, points) :: jumps, bulks, changes, gaps_changes
+    real(dp) :: at_rest(dim, points)
+    real(dp), dimension(size(u), dim) :: jump
     real(dp), dimension(size(u)) :: moved, original, shifted, force
     real(dp) :: turning(3, dim, dim, size(faces, 1)), turning_faces(3, dim, dim, size(faces, 1), 2)
     real(dp) :: bulk_traction(3), gap(3), separation(3), area
@@ -80,15 +83,13 @@ contains
     tangent = 0.0_dp
     energies = 0.0_dp
     bulk_traction = 0.0_dp
-    original = about_mean(dim, reshape(coordinates, [size(u)]))
-    if (options%finite) then
-      shifted = about_mean(dim, reshape(coordinates, [size(u)]) + u)
-    end if
     call check_law(law, status)
     if (status%code /= ok) return
     nodes = size(faces, 1)
     call measure_faces(dim, nodes, points, faces, options, coordinates, places, layer, status)
     if (status%code /= ok) return
+    if (options%finite .or. layer) original = about_mean(dim, reshape(coordinates, [size(u)]))
+    if (options%finite) shifted = about_mean(dim, reshape(coordinates, [size(u)]) + u)
     split = 0
     if (present(solids)) split = dim*solids(1)%nodes
     if (present(stabilisation)) then
@@ -104,7 +105,7 @@ contains
       if (status%code /= ok) return
       if (present(solids)) then
         call bulk_operators(options%sampling, dim, places, stabilisation%gamma_bottom, solids, faces, &
-          options%initial, coordinates, bulk_of_points, at_rest, status)
+          options%initial, coordinates, bulks, at_rest, status)
         if (status%code /= ok) return
       end if
     end if
@@ -123,10 +124,10 @@ contains
       separation = separation_at(dim, places(k), nodes, faces, moved)
       jump = jump_operator(dim, places(k), nodes, faces, size(u))
       if (layer .and. .not. options%finite) then
-        call layer_operator(dim, nodes, faces, original, places(k), jump, by_displacement, status)
+        call layer_operator(dim, nodes, faces, original, places(k), jump, jumps(:, :, k), status)
         if (status%code /= ok) return
-        separation = layer_separation(dim, places(k), nodes, faces, u, jump, by_displacement)
-        jump = by_displacement
+        separation = layer_separation(dim, places(k), nodes, faces, u, jump, jumps(:, :, k))
+        jump = jumps(:, :, k)
       end if
       gap = 0.0_dp
       if (present(stabilisation)) then
@@ -136,8 +137,7 @@ contains
             if (status%code /= ok) return
             moved = co_rotated_solids(dim, split, places(k)%frame, turned, original, shifted)
           end if
-          bulk = bulk_of_points(:, :, k)
-          bulk_traction(1:dim) = matmul(bulk, moved) + at_rest(:, k)
+          bulk_traction(1:dim) = matmul(moved, bulks(:, :, k)) + at_rest(:, k)
         else
           bulk_traction = matmul(here%frame, matmul(neighbours(:, :, k), places(k)%frame(2, :)))
         end if
@@ -154,28 +154,32 @@ contains
       area = places(k)%area*thickness
       energies = energies + point_energies(area, new(k))
       if (options%finite) then
-        force = matmul(new(k)%traction(1:dim), jump)
+        force = matmul(jump, new(k)%traction(1:dim))
         jump = by_displacements(dim, nodes, faces, places(k)%frame, here%frame, turning, shifted, jump)
         if (with_tangent) call add_turning(area, dim, nodes, faces, places(k), here, turning, original, shifted, force, tangent)
         if (present(solids)) then
-          force = matmul(gap(1:dim), bulk)
-          bulk = solids_by_displacements(dim, nodes, faces, split, places(k)%frame, turned, turning_faces, shifted, bulk)
+          force = matmul(bulks(:, :, k), gap(1:dim))
+          bulks(:, :, k) = solids_by_displacements(dim, nodes, faces, split, places(k)%frame, turned, turning_faces, shifted, &
+            bulks(:, :, k))
           if (with_tangent .and. options%complete) call add_turning_of_solids(area, dim, nodes, faces, split, places(k), turned, &
             turning_faces, original, shifted, force, tangent)
         end if
       end if
-      residual = residual - area*matmul(new(k)%traction(1:dim), jump)
-      if (options%complete) residual = residual - area*matmul(gap(1:dim), bulk)
+      residual = residual - matmul(jump, area*new(k)%traction(1:dim))
+      if (options%complete) residual = residual - matmul(bulks(:, :, k), area*gap(1:dim))
       if (.not. with_tangent) cycle
-      by_displacement = matmul(response%by_jump(1:dim, 1:dim), jump)
-      if (present(solids)) by_displacement = by_displacement + matmul(response%by_bulk(1:dim, 1:dim), bulk)
-      call add_product(area, jump, by_displacement, tangent)
-      if (.not. options%complete) cycle
-      do i = 1, dim
-        by_displacement(i, :) = (by_displacement(i, :) - bulk(i, :))/stabilisation%beta(mode_of(i))
+      jumps(:, :, k) = jump
+      changes(:, :, k) = 0.0_dp
+      call add_product(size(u), dim, dim, jump, area*response%by_jump(1:dim, 1:dim), changes(:, :, k))
+      if (present(solids)) call add_product(size(u), dim, dim, bulks(:, :, k), area*response%by_bulk(1:dim, 1:dim), &
+        changes(:, :, k))
+      do i = 1, merge(dim, 0, options%complete)
+        gaps_changes(:, i, k) = (changes(:, i, k) - area*bulks(:, i, k))/stabilisation%beta(mode_of(i))
       end do
-      call add_product(area, bulk, by_displacement, tangent)
     end do
+    if (.not. with_tangent) return
+    call add_forces_on_faces(dim, nodes, faces, size(u), dim*points, .not. (options%finite .or. layer), jumps, changes, tangent)
+    if (options%complete) call add_product(size(u), size(u), dim*points, bulks, gaps_changes, tangent)
   end subroutine integrate_interface
 
   !> Residual of tractions that are known, such as those at the start of an increment, at the displacements that they belong to.
@@ -196,8 +200,8 @@ contains
     type(interface_place) :: places(points), here, turned(2)
     real(dp) :: turning(3, dim, dim, size(faces, 1)), turning_faces(3, dim, dim, size(faces, 1), 2), gap(3), area
     real(dp), dimension(size(u)) :: original, shifted, moved
-    real(dp) :: bulk_of_points(dim, size(u), points), at_rest(dim, points)
-    real(dp), dimension(dim, size(u)) :: jump, bulk
+    real(dp) :: bulks(size(u), dim, points), at_rest(dim, points)
+    real(dp), dimension(size(u), dim) :: jump, bulk
     logical :: layer
     integer :: k, nodes
 
@@ -209,7 +213,7 @@ contains
     shifted = about_mean(dim, reshape(coordinates, [size(u)]) + u)
     if (options%complete) then
       call bulk_operators(options%sampling, dim, places, stabilisation%gamma_bottom, solids, faces, options%initial, &
-        coordinates, bulk_of_points, at_rest, status)
+        coordinates, bulks, at_rest, status)
       if (status%code /= ok) return
     end if
     do k = 1, points
@@ -228,18 +232,18 @@ contains
         if (status%code /= ok) return
         jump = bulk
       end if
-      residual = residual - area*matmul(known(k)%traction(1:dim), jump)
+      residual = residual - matmul(jump, area*known(k)%traction(1:dim))
       if (.not. options%complete) cycle
-      bulk = bulk_of_points(:, :, k)
+      bulk = bulks(:, :, k)
       if (options%finite) then
         call turn_faces(dim, nodes, faces, original, shifted, places(k), turned, turning_faces, status)
         if (status%code /= ok) return
         moved = co_rotated_solids(dim, dim*solids(1)%nodes, places(k)%frame, turned, original, shifted)
       end if
-      gap(1:dim) = (known(k)%traction(1:dim) - matmul(bulk, moved) - at_rest(:, k))/stabilisation%beta(mode_of(1:dim))
+      gap(1:dim) = (known(k)%traction(1:dim) - matmul(moved, bulk) - at_rest(:, k))/stabilisation%beta(mode_of(1:dim))
       if (options%finite) bulk = solids_by_displacements(dim, nodes, faces, dim*solids(1)%nodes, places(k)%frame, turned, &
         turning_faces, shifted, bulk)
-      residual = residual - area*matmul(gap(1:dim), bulk)
+      residual = residual - matmul(bulk, area*gap(1:dim))
     end do
   end subroutine interface_forces
 
@@ -283,20 +287,38 @@ contains
     call check_beta(steepest, stabilisation%beta, status)
   end subroutine suit_law
 
-  !> Adds area N^T x to a matrix.
-  pure subroutine add_product(area, jump, x, matrix)
-    real(dp), intent(in) :: area
-    real(dp), intent(in) :: jump(:, :), x(:, :)     !< (2 or 3, unknowns)
-    real(dp), intent(inout) :: matrix(size(jump, 2), size(x, 2))
-    real(dp) :: by_node(size(jump, 2), size(jump, 1))   ! so that the innermost loop is along the memory
-    integer :: i, j
+  !> Adds N^T x to a matrix. Where the forces on both faces are opposite, the rows of the bottom are those of the top with the other
+  !> sign.
+  pure subroutine add_forces_on_faces(dim, nodes, faces, n, terms, opposite, jumps, x, matrix)
+    integer, intent(in) :: dim, nodes, faces(nodes, 2), n, terms
+    logical, intent(in) :: opposite
+    real(dp), intent(in) :: jumps(n, terms), x(n, terms)
+    real(dp), intent(inout) :: matrix(n, n)
+    real(dp) :: on_top(dim*nodes, terms), part(dim*nodes, n)
+    integer :: a, j, k, top, bottom
 
-    by_node = transpose(jump)
-    do j = 1, size(x, 2)
-      do i = 1, size(x, 1)
-        matrix(:, j) = matrix(:, j) + (area*x(i, j))*by_node(:, i)
+    if (.not. opposite) then
+      call add_product(n, n, terms, jumps, x, matrix)
+      return
+    end if
+    do k = 1, terms
+      do a = 1, nodes
+        top = dim*(faces(a, 2) - 1)
+        on_top(dim*(a - 1) + 1:dim*a, k) = jumps(top + 1:top + dim, k)
       end do
     end do
-  end subroutine add_product
+    part = 0.0_dp
+    call add_product(dim*nodes, n, terms, on_top, x, part)
+    do j = 1, n
+      do a = 1, nodes
+        bottom = dim*(faces(a, 1) - 1)
+        top = dim*(faces(a, 2) - 1)
+        do k = 1, dim
+          matrix(bottom + k, j) = matrix(bottom + k, j) - part(dim*(a - 1) + k, j)
+          matrix(top + k, j) = matrix(top + k, j) + part(dim*(a - 1) + k, j)
+        end do
+      end do
+    end do
+  end subroutine add_forces_on_faces
 
 end module elements_interface_kernel

@@ -15,7 +15,7 @@
 module elements_interface_layer
   use core_kinds, only: dp
   use core_status, only: status_type, ok, layer_slants, layer_twists
-  use elements_interface_faces, only: interface_place, place_points, separation_at, face_slope, most_apart
+  use elements_interface_faces, only: interface_place, place_points, separation_at, most_apart
   use elements_interface_rotation, only: turn_place, by_displacements
   implicit none(type, external)
   private
@@ -47,7 +47,7 @@ contains
       aside = hypot(thickness(1), thickness(3))
       if (aside > thickness(2)) status = status_type(layer_slants, k, aside, thickness(2))
       if (status%code /= ok) return
-      by_node = face_slope(dim, nodes, places(k)%parent)
+      by_node = places(k)%slope(1:nodes, 1:dim - 1)
       lower = matmul(bottom, by_node)
       upper = matmul(top, by_node)
       do i = 1, dim - 1
@@ -59,12 +59,12 @@ contains
     end do
   end subroutine measure_layer
 
-  !> The matrix that takes small displacements of a layer to its separation at a point.
+  !> The separation of a layer at a point by its small displacements, (unknowns, components).
   pure subroutine layer_operator(dim, nodes, faces, original, place, jump, matrix, status)
     integer, intent(in) :: dim, nodes, faces(nodes, 2)
     real(dp), intent(in) :: original(:)            !< coordinates about their mean, one node after the other
     type(interface_place), intent(in) :: place
-    real(dp), intent(in) :: jump(:, :)             !< N
+    real(dp), intent(in) :: jump(:, :)             !< N, transposed
     real(dp), intent(out) :: matrix(size(jump, 1), size(jump, 2))
     type(status_type), intent(out) :: status       !< zero_length
     type(interface_place) :: here
@@ -83,7 +83,7 @@ contains
     type(interface_place), intent(in) :: place
     integer, intent(in) :: nodes, faces(nodes, 2)
     real(dp), intent(in) :: u(:)                        !< displacements of the element
-    real(dp), intent(in) :: jump(:, :), matrix(:, :)    !< N, and `layer_operator`
+    real(dp), intent(in) :: jump(:, :), matrix(:, :)    !< N, transposed, and `layer_operator`
     real(dp) :: separation(3)
     real(dp) :: relative(size(u))
     integer :: a
@@ -92,7 +92,7 @@ contains
       relative(a + 1:a + dim) = u(a + 1:a + dim) - u(1:dim)
     end do
     separation = separation_at(dim, place, nodes, faces, u)
-    separation(1:dim) = separation(1:dim) + matmul(matrix - jump, relative)
+    separation(1:dim) = separation(1:dim) + matmul(relative, matrix - jump)
   end function layer_separation
 
 end module elements_interface_layer

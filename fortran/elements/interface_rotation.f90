@@ -16,7 +16,7 @@ module elements_interface_rotation
   use core_kinds, only: dp
   use core_rotation, only: turned_frame, frame_curvature
   use core_status, only: status_type, zero_length, ok
-  use elements_interface_faces, only: interface_place, face_slope
+  use elements_interface_faces, only: interface_place
   implicit none(type, external)
   private
   public :: turn_place, co_rotated, by_displacements, add_turning
@@ -35,7 +35,7 @@ contains
 
     start = middle_of(dim, nodes, faces, original)
     now = middle_of(dim, nodes, faces, present)
-    by_node = face_slope(dim, nodes, place%parent)
+    by_node = place%slope(1:nodes, 1:dim - 1)
     call turned_frame(dim, nodes, matmul(start, by_node), matmul(now, by_node), place%frame, by_node, turned, turning, measure)
     place%frame = turned
     status = status_type(merge(ok, zero_length, measure > 0.0_dp), 0, measure, 0.0_dp)
@@ -77,29 +77,46 @@ contains
     real(dp), intent(in) :: frame(3, 3), turned(3, 3)
     real(dp), intent(in) :: turning(3, dim, dim, nodes)    !< row of the present frame, component, direction, node
     real(dp), intent(in) :: present(:)                     !< coordinates about their mean
-    real(dp), intent(in) :: matrix(:, :)
+    real(dp), intent(in) :: matrix(:, :)                   !< (unknowns, components)
     real(dp) :: derivative(size(matrix, 1), size(matrix, 2))
-    real(dp) :: back(dim, dim), moved(size(present)), change(size(matrix, 1))
-    integer :: a, i, q, side, column
+    real(dp) :: back(dim, dim), moments(dim, dim), change
+    integer :: a, c, i, q, side, row
 
-    back = matmul(transpose(frame(1:dim, 1:dim)), turned(1:dim, 1:dim))
-    do a = 0, size(present) - dim, dim
-      derivative(:, a + 1:a + dim) = matmul(matrix(:, a + 1:a + dim), back)
-    end do
-    do q = 1, nodes
-      do i = 1, dim
-        back = matmul(transpose(frame(1:dim, 1:dim)), turning(1:dim, :, i, q))
-        do a = 0, size(present) - dim, dim
-          moved(a + 1:a + dim) = matmul(back, present(a + 1:a + dim))
-        end do
-        change = 0.5_dp*matmul(matrix, moved)
-        do side = 1, 2
-          column = dim*(faces(q, side) - 1) + i
-          derivative(:, column) = derivative(:, column) + change
+    back = matmul(transpose(turned(1:dim, 1:dim)), frame(1:dim, 1:dim))
+    do c = 1, size(matrix, 2)
+      do a = 0, size(present) - dim, dim
+        derivative(a + 1:a + dim, c) = matmul(back, matrix(a + 1:a + dim, c))
+      end do
+      moments = moments_of(dim, frame, matrix(:, c), present)
+      do q = 1, nodes
+        do i = 1, dim
+          change = 0.5_dp*sum(turning(1:dim, :, i, q)*moments)
+          do side = 1, 2
+            row = dim*(faces(q, side) - 1) + i
+            derivative(row, c) = derivative(row, c) + change
+          end do
         end do
       end do
     end do
   end function by_displacements
+
+  !> Sum of frame force_a (x) x_a over the nodes: what the entries of the present frame are multiplied by in force.v.
+  pure function moments_of(dim, frame, force, present) result(moments)
+    integer, intent(in) :: dim
+    real(dp), intent(in) :: frame(3, 3)
+    real(dp), intent(in) :: force(:), present(:)           !< of the nodes, one after the other
+    real(dp) :: moments(dim, dim)
+    real(dp) :: global(dim, dim)
+    integer :: a, j
+
+    global = 0.0_dp
+    do a = 0, size(force) - dim, dim
+      do j = 1, dim
+        global(:, j) = global(:, j) + force(a + 1:a + dim)*present(a + j)
+      end do
+    end do
+    moments = matmul(frame(1:dim, 1:dim), global)
+  end function moments_of
 
   !> Turns the frame of a point with the bottom and with the top face, as `turn_place` does with the surface between them.
   pure subroutine turn_faces(dim, nodes, faces, original, present, place, turned, turning, status)
@@ -136,14 +153,14 @@ contains
     integer, intent(in) :: dim, nodes, faces(nodes, 2), split
     real(dp), intent(in) :: frame(3, 3)
     type(interface_place), intent(in) :: turned(2)
-    real(dp), intent(in) :: turning(3, dim, dim, nodes, 2), present(:), matrix(:, :)
+    real(dp), intent(in) :: turning(3, dim, dim, nodes, 2), present(:), matrix(:, :)   !< matrix: (unknowns, components)
     real(dp) :: derivative(size(matrix, 1), size(matrix, 2))
-    integer :: side
+    integer :: side, first, last, own(nodes, 2)
 
-    derivative = 0.0_dp
     do side = 1, 2
-      derivative = derivative + by_displacements(dim, nodes, spread(faces(:, side), 2, 2), frame, turned(side)%frame, &
-        turning(:, :, :, :, side), present, part_of_solid(side, split, matrix))
+      call find_solid(side, dim, faces, split, size(present), first, last, own)
+      derivative(first:last, :) = by_displacements(dim, nodes, own, frame, turned(side)%frame, turning(:, :, :, :, side), &
+        present(first:last), matrix(first:last, :))
     end do
   end function solids_by_displacements
 
@@ -155,26 +172,25 @@ contains
     real(dp), intent(in) :: turning(3, dim, dim, nodes, 2), original(:), present(:)
     real(dp), intent(in) :: force(size(present))             !< in the original directions, per area
     real(dp), intent(inout) :: tangent(:, :)
-    real(dp) :: part(1, size(present))
-    integer :: side
+    integer :: side, first, last, own(nodes, 2)
 
     do side = 1, 2
-      part = part_of_solid(side, split, reshape(force, [1, size(force)]))
-      call add_turning(area, dim, nodes, spread(faces(:, side), 2, 2), place, turned(side), turning(:, :, :, :, side), original, &
-        present, part(1, :), tangent)
+      call find_solid(side, dim, faces, split, size(present), first, last, own)
+      call add_turning(area, dim, nodes, own, place, turned(side), turning(:, :, :, :, side), original(first:last), &
+        present(first:last), force(first:last), tangent(first:last, first:last))
     end do
   end subroutine add_turning_of_solids
 
-  !> Columns of a matrix that belong to the solid below, 1, or above, 2; zero elsewhere.
-  pure function part_of_solid(side, split, matrix) result(part)
-    integer, intent(in) :: side, split
-    real(dp), intent(in) :: matrix(:, :)
-    real(dp) :: part(size(matrix, 1), size(matrix, 2))
+  !> Unknowns of the solid below, 1, or above, 2, and the nodes of its face, both of the "mid-surface" of this face alone.
+  pure subroutine find_solid(side, dim, faces, split, unknowns, first, last, own)
+    integer, intent(in) :: side, dim, faces(:, :), split, unknowns
+    integer, intent(out) :: first, last
+    integer, intent(out) :: own(:, :)        !< among the nodes of the solid
 
-    part = matrix
-    if (side == 1) part(:, split + 1:) = 0.0_dp
-    if (side == 2) part(:, :split) = 0.0_dp
-  end function part_of_solid
+    first = merge(1, split + 1, side == 1)
+    last = merge(split, unknowns, side == 1)
+    own = spread(faces(:, side) - (first - 1)/dim, 2, 2)
+  end subroutine find_solid
 
   !> Adds to the tangent how the forces of a point on the co-rotated displacements turn with its frame: the second derivative of
   !> force.v at constant force.
@@ -186,24 +202,25 @@ contains
     real(dp), intent(in) :: original(:), present(:)          !< coordinates about their means
     real(dp), intent(in) :: force(size(present))             !< in the original directions, per area
     real(dp), intent(inout) :: tangent(:, :)
-    real(dp) :: by_node(nodes, dim - 1), rows(dim, size(present)/dim), moments(3, 3), curvature(dim*nodes, dim*nodes), part(dim)
+    real(dp) :: by_node(nodes, dim - 1), rows(dim, size(present)/dim), moments(3, 3), curvature(dim*nodes, dim*nodes)
+    real(dp) :: change(dim, size(present)/dim)
     integer :: q, i, a, side, other, column, row, p
 
     rows = matmul(place%frame(1:dim, 1:dim), reshape(force, shape(rows)))
     moments = 0.0_dp
-    moments(1:dim, 1:dim) = matmul(rows, transpose(reshape(present, shape(rows))))
-    by_node = face_slope(dim, nodes, place%parent)
+    moments(1:dim, 1:dim) = moments_of(dim, place%frame, force, present)
+    by_node = place%slope(1:nodes, 1:dim - 1)
     curvature = frame_curvature(dim, nodes, matmul(middle_of(dim, nodes, faces, original), by_node), &
       matmul(middle_of(dim, nodes, faces, present), by_node), place%frame, by_node, turned%frame, turning, moments)
     do q = 1, nodes
       do i = 1, dim
+        change = (0.5_dp*area)*matmul(transpose(turning(1:dim, :, i, q)), rows)
         do side = 1, 2
           column = dim*(faces(q, side) - 1) + i
           do a = 1, size(rows, 2)
-            part = (0.5_dp*area)*matmul(rows(:, a), turning(1:dim, :, i, q))
             row = dim*(a - 1)
-            tangent(row + 1:row + dim, column) = tangent(row + 1:row + dim, column) + part
-            tangent(column, row + 1:row + dim) = tangent(column, row + 1:row + dim) + part
+            tangent(row + 1:row + dim, column) = tangent(row + 1:row + dim, column) + change(:, a)
+            tangent(column, row + 1:row + dim) = tangent(column, row + 1:row + dim) + change(:, a)
           end do
           do other = 1, 2
             do p = 1, nodes
