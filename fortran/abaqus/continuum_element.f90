@@ -80,13 +80,12 @@ contains
     logical, intent(in) :: finite, with_tangent
     real(dp), intent(inout) :: svars(:), energy(8), pnewdt
     real(dp), intent(out) :: residual(:)
-    real(dp), intent(out) :: tangent(:, :)         !< zero without
+    real(dp), contiguous, intent(inout) :: tangent(:, :)   !< zero on entry, and without
     logical, intent(out) :: good
     type(element_call) :: this
     integer :: modes, places
 
     residual = 0.0_dp
-    tangent = 0.0_dp
     associate (dim => elements(itype)%dimension, plane => options(j_plane))
       this = element_call(itype, jelem, dim, elements(itype)%nodes, 3*(dim - 1), merge(3 + plane, 6, dim == 2), &
         [1, 2, merge(4, 3, dim == 2 .and. plane == plane_strain), 4, 5, 6], options(j_formulation), &

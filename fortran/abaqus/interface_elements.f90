@@ -85,9 +85,10 @@ contains
     real(dp), intent(in) :: dtime
     type(load_cycles), intent(in) :: cycles        !< of the increment
     logical, intent(in) :: finite                  !< large rotations
-    logical, intent(in) :: with_tangent            !< else it is zero
+    logical, intent(in) :: with_tangent
     real(dp), intent(inout) :: svars(*), energy(8)
-    real(dp), intent(out) :: residual(:), tangent(:, :)
+    real(dp), intent(out) :: residual(:)
+    real(dp), contiguous, intent(inout) :: tangent(:, :)   !< zero on entry; it stays so without, but not where a message was sent
     real(dp), intent(out) :: growth                !< largest ratio of the next increment to this one; huge without a limit
     logical, intent(out) :: good
     type(law_parameters) :: law

@@ -72,16 +72,15 @@ contains
     values_are_kept = lflags(3) == normal .and. .not. is_linear_step(lflags)
   end function values_are_kept
 
-  !> Hands over what a call asks for; the rest stays as it is, RHS and AMATRX zero. In a linear step, LFLAGS(4) = 1, RHS is the
+  !> Hands over what a call asks for beside AMATRX; the rest stays as it is, RHS zero. In a linear step, LFLAGS(4) = 1, RHS is the
   !> effect of the perturbation.
-  pure subroutine give_answer(lflags, du, residual, tangent, state, energies, rhs, amatrx, svars, energy)
+  pure subroutine give_answer(lflags, du, amatrx, residual, state, energies, rhs, svars, energy)
     integer, intent(in) :: lflags(*)
-    real(dp), intent(in) :: du(:), residual(:), tangent(:, :), state(:), energies(8)
-    real(dp), intent(inout) :: rhs(:), amatrx(:, :), svars(:), energy(8)
+    real(dp), intent(in) :: du(:), amatrx(:, :), residual(:), state(:), energies(8)
+    real(dp), intent(inout) :: rhs(:), svars(:), energy(8)
 
-    if (asks_for_tangent(lflags)) amatrx = tangent
     if (is_linear_step(lflags)) then
-      if (lflags(3) == perturbation) rhs = -matmul(tangent, du)
+      if (lflags(3) == perturbation) rhs = -matmul(amatrx, du)
       return
     end if
     if (lflags(3) /= stiffness) rhs = residual

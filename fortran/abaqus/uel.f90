@@ -27,7 +27,7 @@ subroutine uel(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, nprops, 
   real(dp), intent(inout) :: rhs(mlvarx, *), amatrx(ndofel, ndofel), svars(*), energy(8), pnewdt
   real(dp), intent(in) :: props(*), coords(mcrd, nnode), u(ndofel), du(mlvarx, *), v(ndofel), a(ndofel), time(2), dtime
   real(dp), intent(in) :: params(*), adlmag(mdload, *), predef(2, npredf, nnode), ddlmag(mdload, *), period
-  real(dp) :: residual(ndofel), tangent(ndofel, ndofel), state(variables_of(row_of(jtype))), energies(8), values(size(reals))
+  real(dp) :: residual(ndofel), state(variables_of(row_of(jtype))), energies(8), values(size(reals))
   real(dp) :: before(ndofel), temperatures(2, nnode), weight, growth
   type(load_cycles) :: cycles
   logical :: good
@@ -64,12 +64,13 @@ subroutine uel(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, nprops, 
   if (.not. good) return
   ! a linear step perturbs a state, in no time
   call evaluate_interface(itype, jelem, values, options, coords, u, temperatures, merge(0.0_dp, dtime, is_linear_step(lflags)), &
-    cycles, large_displacements(lflags), asks_for_tangent(lflags), state, energies, residual, tangent, growth, good)
+    cycles, large_displacements(lflags), asks_for_tangent(lflags), state, energies, residual, amatrx, growth, good)
+  if (.not. good) amatrx = 0.0_dp
   if (.not. good) return
   if (values_are_kept(lflags)) pnewdt = min(pnewdt, growth)
   if (abs(weight) > 0.0_dp) then
     residual = (1.0_dp - weight)*residual + weight*before
-    tangent = (1.0_dp - weight)*tangent
+    amatrx = (1.0_dp - weight)*amatrx
   end if
-  call give_answer(lflags, du(1:ndofel, 1), residual, tangent, state, energies, rhs(1:ndofel, 1), amatrx, svars(1:n), energy)
+  call give_answer(lflags, du(1:ndofel, 1), amatrx, residual, state, energies, rhs(1:ndofel, 1), svars(1:n), energy)
 end subroutine uel

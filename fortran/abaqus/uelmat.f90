@@ -23,7 +23,7 @@ subroutine uelmat(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, nprop
   real(dp), intent(in) :: props(*), coords(mcrd, nnode), u(ndofel), du(mlvarx, *), v(ndofel), a(ndofel), time(2), dtime
   real(dp), intent(in) :: params(*), adlmag(mdload, *), predef(2, npredf, nnode), ddlmag(mdload, *), period
   integer, intent(in) :: materiallib(*)
-  real(dp) :: residual(ndofel), tangent(ndofel, ndofel), state(variables_of(row_of(jtype))), energies(8), values(size(reals))
+  real(dp) :: residual(ndofel), state(variables_of(row_of(jtype))), energies(8), values(size(reals))
   real(dp) :: before(ndofel), weight
   integer :: options(size(integers)), n, itype
   logical :: good
@@ -52,11 +52,11 @@ subroutine uelmat(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, nprop
     if (.not. good) return
   end if
   call evaluate_continuum(itype, jelem, values, options, coords, u, predef, npredf, materiallib, large_displacements(lflags), &
-    asks_for_tangent(lflags), state, energies, pnewdt, residual, tangent, good)
+    asks_for_tangent(lflags), state, energies, pnewdt, residual, amatrx, good)
   if (.not. good) return
   if (abs(weight) > 0.0_dp) then
     residual = (1.0_dp - weight)*residual + weight*before
-    tangent = (1.0_dp - weight)*tangent
+    amatrx = (1.0_dp - weight)*amatrx
   end if
-  call give_answer(lflags, du(1:ndofel, 1), residual, tangent, state, energies, rhs(1:ndofel, 1), amatrx, svars(1:n), energy)
+  call give_answer(lflags, du(1:ndofel, 1), amatrx, residual, state, energies, rhs(1:ndofel, 1), svars(1:n), energy)
 end subroutine uelmat

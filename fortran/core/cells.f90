@@ -8,7 +8,7 @@ module core_cells
   use core_serendipity, only: serendipity_functions, quad_places, brick_places
   use core_simplex, only: simplex_functions, quadratic_simplex, wedge_functions, quadratic_wedge, triangle_points, &
     tetrahedron_points, inner_coordinate
-  use core_shape_functions, only: to_position
+  use core_shape_functions, only: quad_shape, quad_slope, to_position
   implicit none(type, external)
   private
   public :: corners_of, is_linear, is_multilinear, is_product, cell_functions, cell_gradient, node_parents
@@ -68,7 +68,10 @@ contains
     real(dp), intent(in) :: parent(dim)
     real(dp), intent(out) :: n(nodes), dn(nodes, dim)
 
-    if (is_product(dim, nodes)) then
+    if (dim == 2 .and. nodes == 4) then
+      n = quad_shape(parent)
+      dn = quad_slope(parent)
+    else if (is_product(dim, nodes)) then
       if (dim == 2) then
         call serendipity_functions(2, nodes, quad_places(:, 1:nodes), parent, n, dn)
       else

@@ -54,7 +54,7 @@ contains
     area = norm2(normal)
     if (.not. area > 0.0_dp) return
     normal = normal/area
-    axis = merge(1, 3, hypot(normal(2), normal(3)) >= smallest_sine)
+    axis = merge(1, 3, normal(2)**2 + normal(3)**2 >= smallest_sine**2)
     along = -normal(axis)*normal
     along(axis) = along(axis) + 1.0_dp
     if (present(direction)) then
@@ -293,16 +293,16 @@ contains
     c = [a(2)*b(3) - a(3)*b(2), a(3)*b(1) - a(1)*b(3), a(1)*b(2) - a(2)*b(1)]
   end function cross
 
-  !> The traction sigma.n, in the components of the rows of a frame of which n is the second one, by the stress, in the plane (11,
-  !> 22, 12), in space (11, 22, 33, 12, 13, 23): (stresses, components).
+  !> Matrix that takes stress, in the plane (11, 22, 12), in space (11, 22, 33, 12, 13, 23), to the traction sigma.n in the
+  !> components of the rows of a frame, of which n is the second one.
   pure function traction_operator(dim, frame) result(matrix)
     integer, intent(in) :: dim                !< 2 or 3
     real(dp), intent(in) :: frame(3, 3)       !< rows tau, n and zero, or s, n and t
-    real(dp) :: matrix(3*(dim - 1), dim)
+    real(dp) :: matrix(dim, 3*(dim - 1))
     integer :: i
 
     do i = 1, dim
-      matrix(:, i) = symmetric_product(dim, frame(i, :), frame(2, :))
+      matrix(i, :) = symmetric_product(dim, frame(i, :), frame(2, :))
     end do
   end function traction_operator
 

@@ -75,12 +75,20 @@ contains
     real(dp), intent(in) :: by_parent(nodes, dim)     !< derivatives of each node's function
     real(dp), intent(out) :: gradient(dim, nodes)     !< 1/length
     real(dp), intent(out) :: jacobian                 !< area or volume
-    real(dp) :: by_xi(2), by_eta(2), inverse(3, 3)
-    integer :: a
+    real(dp) :: by_xi(2), by_eta(2), by_all(3, 3), inverse(3, 3)
+    integer :: a, i
 
     if (dim == 3) then
-      call invert(3, matmul(coordinates, by_parent), inverse, jacobian)
-      gradient = transpose(matmul(by_parent, inverse))
+      by_all = 0.0_dp
+      do i = 1, 3
+        do a = 1, nodes
+          by_all(:, i) = by_all(:, i) + coordinates(:, a)*by_parent(a, i)
+        end do
+      end do
+      call invert(3, by_all, inverse, jacobian)
+      do a = 1, nodes
+        gradient(:, a) = by_parent(a, 1)*inverse(1, :) + by_parent(a, 2)*inverse(2, :) + by_parent(a, 3)*inverse(3, :)
+      end do
       if (.not. jacobian > 0.0_dp) gradient = 0.0_dp
       return
     end if

@@ -5,7 +5,7 @@ module core_small_matrix
   use core_kinds, only: dp
   implicit none(type, external)
   private
-  public :: add_product, determinant, cofactors, invert, invert_general
+  public :: add_product, add_combination, determinant, cofactors, invert, invert_general
 
 contains
 
@@ -45,11 +45,30 @@ contains
         matrix(:, j) = matrix(:, j) + a(:, k)*b(j, k) + a(:, k + 1)*b(j, k + 1) + a(:, k + 2)*b(j, k + 2) &
           + a(:, k + 3)*b(j, k + 3)
       end do
-      do k = whole + 1, terms
+      k = whole + 1
+      select case (terms - whole)
+      case (1)
         matrix(:, j) = matrix(:, j) + a(:, k)*b(j, k)
-      end do
+      case (2)
+        matrix(:, j) = matrix(:, j) + a(:, k)*b(j, k) + a(:, k + 1)*b(j, k + 1)
+      case (3)
+        matrix(:, j) = matrix(:, j) + a(:, k)*b(j, k) + a(:, k + 1)*b(j, k + 1) + a(:, k + 2)*b(j, k + 2)
+      case default   ! none is left
+      end select
     end do
   end subroutine add_columns
+
+  !> Adds the product of a matrix and a vector: a combination of its columns.
+  pure subroutine add_combination(n, terms, a, x, vector)
+    integer, intent(in) :: n, terms
+    real(dp), intent(in) :: a(n, terms), x(terms)
+    real(dp), intent(inout) :: vector(n)
+    integer :: k
+
+    do k = 1, terms
+      vector = vector + x(k)*a(:, k)
+    end do
+  end subroutine add_combination
 
   !> Determinant of a matrix of two or three rows.
   pure function determinant(a) result(value)
@@ -90,7 +109,8 @@ contains
     real(dp), intent(out) :: value         !< determinant
 
     if (n == 2) then
-      inverse = reshape([a(2, 2), -a(2, 1), -a(1, 2), a(1, 1)], [2, 2])
+      inverse(:, 1) = [a(2, 2), -a(2, 1)]
+      inverse(:, 2) = [-a(1, 2), a(1, 1)]
     else
       inverse = transpose(cofactors(a))
     end if

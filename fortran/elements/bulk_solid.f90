@@ -11,6 +11,7 @@ module elements_bulk_solid
   use core_cells, only: cell_functions, cell_point, corners_of, is_linear, is_multilinear, is_product, point_shares, points_of_cell
   use core_kinds, only: dp
   use core_rotation, only: traction_operator
+  use core_small_matrix, only: add_product
   use core_status, only: status_type, ok, inside_out, not_positive_definite
   use core_strains, only: strain_matrix
   use core_symmetric, only: invert_definite
@@ -193,10 +194,11 @@ contains
     real(dp), intent(in) :: coordinates(dim, nodes), parent(dim)
     real(dp), intent(out) :: b(dim*nodes, 3*(dim - 1))
     type(status_type), intent(out) :: status
-    real(dp) :: gradient(dim, nodes)
+    real(dp) :: gradient(dim, nodes), by_node(nodes, dim)
 
     call solid_gradient(dim, nodes, coordinates, parent, gradient, status)
-    call strain_matrix(dim, dim, nodes, transpose(gradient), b)
+    by_node = transpose(gradient)
+    call strain_matrix(dim, dim, nodes, by_node, b)
   end subroutine plain_strains
 
   !> sigma.n of a solid, in the components of a frame, by its strain: (strains, components).
@@ -205,9 +207,13 @@ contains
     type(solid_type), intent(in) :: solid
     real(dp), intent(in) :: frame(3, 3)          !< rows tau, n and zero, or s, n and t
     real(dp) :: matrix(3*(dim - 1), dim)
+    real(dp) :: operator(dim, 3*(dim - 1)), stiffness(3*(dim - 1), 3*(dim - 1))
 
+    operator = traction_operator(dim, frame)
+    stiffness = solid%stiffness(1:size(matrix, 1), 1:size(matrix, 1))
+    matrix = 0.0_dp
     ! D is symmetric
-    matrix = matmul(solid%stiffness(1:3*(dim - 1), 1:3*(dim - 1)), traction_operator(dim, frame))
+    call add_product(size(matrix, 1), dim, size(matrix, 1), stiffness, operator, matrix)
   end function solid_traction
 
   !> Area or volume.

@@ -136,11 +136,13 @@ contains
     real(dp), intent(out) :: at_rest(:, :)              !< traction without displacements, (2 or 3, points)
     type(status_type), intent(out) :: status            !< inside_out: item 1 for the bottom element, 2 for the top one
     real(dp) :: weights(2, 2)
-    integer :: side
+    integer :: side, k
 
     weights(:, 1) = gamma_bottom
     weights(:, 2) = 1.0_dp - gamma_bottom
-    at_rest = spread(initial(1:dim), 2, size(places))
+    do k = 1, size(places)
+      at_rest(:, k) = initial(1:dim)
+    end do
     do side = 1, 2
       associate (first => first_node(solids, side), nodes => solids(side)%nodes)
         call side_operators(sampling, dim, places, weights(:, side), solids(side), faces(:, side) - first + 1, &
@@ -163,7 +165,7 @@ contains
     real(dp), intent(out) :: matrices(:, :, :)
     real(dp), intent(inout) :: at_rest(:, :)
     type(status_type), intent(out) :: status
-    real(dp) :: of_strain(3*(dim - 1), dim), heating
+    real(dp) :: of_strain(3*(dim - 1), dim), by_strain(dim, 3*(dim - 1)), heating
     real(dp) :: samples(dim, max(size(places), most_samples)), shares(max(size(places), most_samples), size(places))
     real(dp) :: b(dim*solid%nodes, 3*(dim - 1), max(size(places), most_samples)), strain(dim*solid%nodes, 3*(dim - 1))
     real(dp) :: traction(dim*solid%nodes, dim)
@@ -186,8 +188,9 @@ contains
       do j = 1, dim
         of_strain(:, j) = weights(mode_of(j))*of_strain(:, j)
       end do
+      by_strain = transpose(of_strain)
       traction = 0.0_dp
-      call add_product(size(strain, 1), dim, size(strain, 2), strain, transpose(of_strain), traction)
+      call add_product(size(strain, 1), dim, size(strain, 2), strain, by_strain, traction)
       matrices(:, :, k) = traction
       if (expands) at_rest(:, k) = at_rest(:, k) - matmul(heating*solid%expansion(1:size(of_strain, 1)), of_strain)
     end do

@@ -15,7 +15,7 @@
 module elements_interface_kernel
   use core_kinds, only: dp
   use core_rotation, only: about_mean
-  use core_small_matrix, only: add_product
+  use core_small_matrix, only: add_combination, add_product
   use core_status, only: status_type, ok
   use cohesive_parameters, only: law_parameters
   use cohesive_law, only: check_law, check_beta, raise_beta
@@ -56,7 +56,7 @@ contains
     type(interface_point), intent(in) :: old(points)    !< committed state
     type(interface_point), intent(out) :: new(points)
     real(dp), intent(out) :: residual(size(u))                !< force
-    real(dp), intent(out) :: tangent(size(u), size(u))        !< -d(residual)/du, force/length; zero if not wanted
+    real(dp), intent(inout) :: tangent(size(u), size(u))      !< to which -d(residual)/du, force/length, is added if wanted
     real(dp), intent(out) :: energies(3)                      !< stored, dissipated by damage and friction, viscous
     type(status_type), intent(out) :: status                  !< its item is the point, the mode or the side
     type(stabilisation_type), intent(inout), optional :: stabilisation   !< beta and gamma, or what they follow from; on exit those
@@ -70,17 +70,16 @@ contains
     type(interface_place) :: here, turned(2)
     type(law_parameters) :: of_point
     ! operators by the displacements are transposed, (unknowns, components), so that loops over unknowns are along the memory
-    real(dp), dimension(size(u), dim, points) :: jumps, bulks, changes, gaps_changes
+    real(dp), dimension(size(u), dim, points) :: jumps, bulks, changes, changes_of_gap
     real(dp) :: at_rest(dim, points)
-    real(dp), dimension(size(u), dim) :: jump
+    real(dp), dimension(size(u), dim) :: jump, change
     real(dp), dimension(size(u)) :: moved, original, shifted, force
     real(dp) :: turning(3, dim, dim, size(faces, 1)), turning_faces(3, dim, dim, size(faces, 1), 2)
     real(dp) :: bulk_traction(3), gap(3), separation(3), area
-    logical :: layer
+    logical :: layer, opposite
     integer :: i, k, nodes, split
 
     residual = 0.0_dp
-    tangent = 0.0_dp
     energies = 0.0_dp
     bulk_traction = 0.0_dp
     call check_law(law, status)
@@ -88,7 +87,8 @@ contains
     nodes = size(faces, 1)
     call measure_faces(dim, nodes, points, faces, options, coordinates, places, layer, status)
     if (status%code /= ok) return
-    if (options%finite .or. layer) original = about_mean(dim, reshape(coordinates, [size(u)]))
+    opposite = .not. (options%finite .or. layer)
+    if (.not. opposite) original = about_mean(dim, reshape(coordinates, [size(u)]))
     if (options%finite) shifted = about_mean(dim, reshape(coordinates, [size(u)]) + u)
     split = 0
     if (present(solids)) split = dim*solids(1)%nodes
@@ -137,7 +137,9 @@ contains
             if (status%code /= ok) return
             moved = co_rotated_solids(dim, split, places(k)%frame, turned, original, shifted)
           end if
-          bulk_traction(1:dim) = matmul(moved, bulks(:, :, k)) + at_rest(:, k)
+          do i = 1, dim
+            bulk_traction(i) = dot_product(moved, bulks(:, i, k)) + at_rest(i, k)
+          end do
         else
           bulk_traction = matmul(here%frame, matmul(neighbours(:, :, k), places(k)%frame(2, :)))
         end if
@@ -165,21 +167,30 @@ contains
             turning_faces, original, shifted, force, tangent)
         end if
       end if
-      residual = residual - matmul(jump, area*new(k)%traction(1:dim))
-      if (options%complete) residual = residual - matmul(bulks(:, :, k), area*gap(1:dim))
+      call add_combination(size(u), dim, jump, -area*new(k)%traction, residual)
+      if (options%complete) call add_combination(size(u), dim, bulks(:, :, k), -area*gap, residual)
       if (.not. with_tangent) cycle
-      jumps(:, :, k) = jump
-      changes(:, :, k) = 0.0_dp
-      call add_product(size(u), dim, dim, jump, area*response%by_jump(1:dim, 1:dim), changes(:, :, k))
-      if (present(solids)) call add_product(size(u), dim, dim, bulks(:, :, k), area*response%by_bulk(1:dim, 1:dim), &
-        changes(:, :, k))
+      change = 0.0_dp
+      call add_product(size(u), dim, dim, jump, area*response%by_jump(1:dim, 1:dim), change)
+      if (present(solids)) call add_product(size(u), dim, dim, bulks(:, :, k), area*response%by_bulk(1:dim, 1:dim), change)
       do i = 1, merge(dim, 0, options%complete)
-        gaps_changes(:, i, k) = (changes(:, i, k) - area*bulks(:, i, k))/stabilisation%beta(mode_of(i))
+        changes_of_gap(:, i, k) = (1.0_dp/stabilisation%beta(mode_of(i)))*(change(:, i) - area*bulks(:, i, k))
       end do
+      if (opposite) then
+        changes(:, :, k) = 0.0_dp
+        call add_product(size(u), dim, dim, change, transpose(places(k)%frame(1:dim, 1:dim)), changes(:, :, k))
+      else
+        changes(:, :, k) = change
+        jumps(:, :, k) = jump
+      end if
     end do
     if (.not. with_tangent) return
-    call add_forces_on_faces(dim, nodes, faces, size(u), dim*points, .not. (options%finite .or. layer), jumps, changes, tangent)
-    if (options%complete) call add_product(size(u), size(u), dim*points, bulks, gaps_changes, tangent)
+    if (opposite) then
+      call add_opposite_forces(dim, nodes, points, faces, size(u), places, changes, tangent)
+    else
+      call add_product(size(u), size(u), dim*points, jumps, changes, tangent)
+    end if
+    if (options%complete) call add_product(size(u), size(u), dim*points, bulks, changes_of_gap, tangent)
   end subroutine integrate_interface
 
   !> Residual of tractions that are known, such as those at the start of an increment, at the displacements that they belong to.
@@ -232,7 +243,7 @@ contains
         if (status%code /= ok) return
         jump = bulk
       end if
-      residual = residual - matmul(jump, area*known(k)%traction(1:dim))
+      call add_combination(size(u), dim, jump, -area*known(k)%traction, residual)
       if (.not. options%complete) cycle
       bulk = bulks(:, :, k)
       if (options%finite) then
@@ -243,7 +254,7 @@ contains
       gap(1:dim) = (known(k)%traction(1:dim) - matmul(moved, bulk) - at_rest(:, k))/stabilisation%beta(mode_of(1:dim))
       if (options%finite) bulk = solids_by_displacements(dim, nodes, faces, dim*solids(1)%nodes, places(k)%frame, turned, &
         turning_faces, shifted, bulk)
-      residual = residual - matmul(bulk, area*gap(1:dim))
+      call add_combination(size(u), dim, bulk, -area*gap, residual)
     end do
   end subroutine interface_forces
 
@@ -287,38 +298,29 @@ contains
     call check_beta(steepest, stabilisation%beta, status)
   end subroutine suit_law
 
-  !> Adds N^T x to a matrix. Where the forces on both faces are opposite, the rows of the bottom are those of the top with the other
-  !> sign.
-  pure subroutine add_forces_on_faces(dim, nodes, faces, n, terms, opposite, jumps, x, matrix)
-    integer, intent(in) :: dim, nodes, faces(nodes, 2), n, terms
-    logical, intent(in) :: opposite
-    real(dp), intent(in) :: jumps(n, terms), x(n, terms)
+  !> Adds the change of the nodal forces to a matrix where they are the tractions times the shape functions, and opposite on both faces.
+  pure subroutine add_opposite_forces(dim, nodes, points, faces, n, places, changes, matrix)
+    integer, intent(in) :: dim, nodes, points, faces(nodes, 2)
+    integer, intent(in) :: n                               !< unknowns
+    type(interface_place), intent(in) :: places(points)
+    real(dp), intent(in) :: changes(n, dim, points)        !< of the force at each point, along global axes
     real(dp), intent(inout) :: matrix(n, n)
-    real(dp) :: on_top(dim*nodes, terms), part(dim*nodes, n)
-    integer :: a, j, k, top, bottom
+    real(dp) :: shapes(nodes, points), on_nodes(n, dim, nodes)
+    integer :: a, i, k, bottom, top
 
-    if (.not. opposite) then
-      call add_product(n, n, terms, jumps, x, matrix)
-      return
-    end if
-    do k = 1, terms
-      do a = 1, nodes
-        top = dim*(faces(a, 2) - 1)
-        on_top(dim*(a - 1) + 1:dim*a, k) = jumps(top + 1:top + dim, k)
+    do k = 1, points
+      shapes(:, k) = places(k)%shape(1:nodes)
+    end do
+    on_nodes = 0.0_dp
+    call add_product(n*dim, nodes, points, changes, shapes, on_nodes)
+    do a = 1, nodes
+      do i = 1, dim
+        bottom = dim*(faces(a, 1) - 1) + i
+        top = dim*(faces(a, 2) - 1) + i
+        matrix(bottom, :) = matrix(bottom, :) - on_nodes(:, i, a)
+        matrix(top, :) = matrix(top, :) + on_nodes(:, i, a)
       end do
     end do
-    part = 0.0_dp
-    call add_product(dim*nodes, n, terms, on_top, x, part)
-    do j = 1, n
-      do a = 1, nodes
-        bottom = dim*(faces(a, 1) - 1)
-        top = dim*(faces(a, 2) - 1)
-        do k = 1, dim
-          matrix(bottom + k, j) = matrix(bottom + k, j) - part(dim*(a - 1) + k, j)
-          matrix(top + k, j) = matrix(top + k, j) + part(dim*(a - 1) + k, j)
-        end do
-      end do
-    end do
-  end subroutine add_forces_on_faces
+  end subroutine add_opposite_forces
 
 end module elements_interface_kernel

@@ -4,7 +4,7 @@
 module materials_linear_elasticity
   use core_kinds, only: dp
   use core_rotation, only: ply_axes, strain_rotation
-  use core_small_matrix, only: invert
+  use core_small_matrix, only: add_product, invert
   use core_status, only: status_type, not_positive_definite
   use core_symmetric, only: eigenvalues
   implicit none(type, external)
@@ -86,7 +86,7 @@ contains
     real(dp), intent(in) :: frame(3, 3)          !< rows s, n and t: the angle is from s to t, and n is the material axis 3
     real(dp), intent(out) :: stiffness(6, 6)     !< stress
     type(status_type), intent(out) :: status     !< not_positive_definite: value is what should be positive
-    real(dp) :: compliance(3, 3), inverse(3, 3), values(3), to_local(6, 6), determinant
+    real(dp) :: compliance(3, 3), inverse(3, 3), values(3), to_local(6, 6), to_global(6, 6), local(6, 6), determinant
     logical :: good
 
     stiffness = 0.0_dp
@@ -97,18 +97,19 @@ contains
     compliance(1, :) = [1.0_dp, -material%nu12, -material%nu13]/material%e1
     compliance(2, :) = [-material%nu12/material%e1, 1.0_dp/material%e2, -material%nu23/material%e2]
     compliance(3, :) = [-material%nu13/material%e1, -material%nu23/material%e2, 1.0_dp/material%e3]
-    call eigenvalues(unit_diagonal(compliance), values, good)
-    if (.not. good .or. .not. minval(values) > 0.0_dp) then
+    if (.not. minval(leading_minors(material)) > 0.0_dp) then
+      call eigenvalues(unit_diagonal(compliance), values, good)
       status = status_type(not_positive_definite, 0, minval(values), 0.0_dp)
       return
     end if
     call invert(3, compliance, inverse, determinant)
-    stiffness(1:3, 1:3) = inverse
-    stiffness(4, 4) = material%g12
-    stiffness(5, 5) = material%g13
-    stiffness(6, 6) = material%g23
     to_local = strain_rotation(ply_axes(frame, material%angle))
-    stiffness = matmul(transpose(to_local), matmul(stiffness, to_local))
+    local(1:3, :) = matmul(inverse, to_local(1:3, :))
+    local(4, :) = material%g12*to_local(4, :)
+    local(5, :) = material%g13*to_local(5, :)
+    local(6, :) = material%g23*to_local(6, :)
+    to_global = transpose(to_local)
+    call add_product(6, 6, 6, to_global, transpose(local), stiffness)
   end subroutine solid_stiffness
 
   !> Strain (e11, e22, 2 e12) of a body that is free in the plane and one degree warmer, in global axes. In plane strain the
@@ -161,6 +162,20 @@ contains
     modulus = 1.0_dp/(along**2/material%e1 + across**2/material%e2 &
       + along*across*(1.0_dp/material%g12 - 2.0_dp*material%nu12/material%e1))
   end function young_modulus
+
+  !> Leading minors of the compliance of the direct strains, with its rows and columns scaled so that its diagonal is 1: all are
+  !> positive if and only if it is positive definite.
+  pure function leading_minors(material) result(minors)
+    type(engineering_constants), intent(in) :: material
+    real(dp) :: minors(2)
+    real(dp) :: squares(3)
+
+    associate (m => material)
+      squares = [m%nu12**2*m%e2/m%e1, m%nu13**2*m%e3/m%e1, m%nu23**2*m%e3/m%e2]
+      minors(1) = 1.0_dp - squares(1)
+      minors(2) = 1.0_dp - sum(squares) - 2.0_dp*m%nu12*m%nu13*m%nu23*m%e3/m%e1
+    end associate
+  end function leading_minors
 
   !> A symmetric matrix with its rows and columns scaled so that its diagonal is 1.
   pure function unit_diagonal(matrix) result(scaled)
