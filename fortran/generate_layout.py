@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import argparse
 import sys
+import textwrap
 import tomllib
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
@@ -261,6 +262,8 @@ def body(data: Row) -> Iterator[str]:
     yield from table_of("type(real_item)", "reals", [real(row, data) for row in data["reals"]])
     yield ""
     yield from table_of("type(integer_item)", "integers", [integer(row, data) for row in data["integers"]])
+    yield from ("", "  !> Rows of the tables that a family has, in the order of PROPS and JPROPS, a column each; then zeros.")
+    yield from (line for table in ("reals", "integers") for line in rows_of_families(table, data))
     yield from ("", "  ! numbers of variables")
     yield from (parameter(f"{name}_variables", len(table["items"])) for name, table in data["variables"].items())
     yield ""
@@ -285,6 +288,20 @@ def table_of(kind: str, name: str, rows: Sequence[tuple[str, str]]) -> Iterator[
         if meaning:
             yield f"    !> {meaning}"
         yield f"    {row}" + (", &" if number < len(rows) else "]")
+
+
+def rows_of_families(table: str, data: Row) -> Iterator[str]:
+    """Lines of the array that has the rows of a table for each family."""
+    columns = [
+        [number for number, row in enumerate(data[table], start=1) if family in families_in(row["elements"], data["sets"])]
+        for family in data["families"]
+    ]
+    most, name = max(map(len, columns)), f"rows_of_{table}"
+    yield f"  integer, parameter, public :: {name}({most}, {len(columns)}) = reshape([ &"
+    numbers = ", ".join(str(number) for column in columns for number in column + [0] * (most - len(column)))
+    lines = textwrap.wrap(numbers, 120)
+    yield from (f"    {line} &" for line in lines[:-1])
+    yield f"    {lines[-1]}], [{most}, {len(columns)}])"
 
 
 def real(row: Row, data: Row) -> tuple[str, str]:

@@ -6,13 +6,14 @@ module abaqus_check
   use core_status, only: status_type, sentence, too_brittle, zero_length, faces_apart, small_beta, &
     too_brittle_mixed, late_secant, no_root, along_normal, layer_slants, layer_twists, bridging_strength, bridging_energy, &
     brittle_tip, brittle_bridging, brittle_mixed_line, no_table, table_gap, table_separation, table_traction, falls_with_rate
-  use abaqus_layout, only: elements, faces, reals, integers, expectations, every_continuum, with_solids, next_to_solids, &
+  use abaqus_layout, only: elements, faces, reals, integers, rows_of_reals, rows_of_integers, expectations, every_continuum, &
+    with_solids, next_to_solids, &
     positive, not_negative, below_one, up_to_one, exponent, estimated, above_one, above_minus_one, load_ratio, any_integer, &
     p_alphan, p_alphat, p_gic, p_giic, p_sigmamax, p_taumax, p_betan, p_betat, p_shapen, p_shapet, p_friction, p_direction1, &
     p_sigmabridge, p_taubridge, p_gibridge, p_giibridge, p_separation1, p_separation2, p_traction1, j_law, j_closure, &
     j_formulation_bottom, j_formulation_top, j_fatigue, p_temperature1, p_temperature2, p_temperature3, p_strength2, p_strength3, &
     p_toughness2, p_toughness3, p_ratereference, p_ratelimit, p_strengthrate, p_toughnessrate
-  use abaqus_properties, only: unknowns_of, variables_of, real_position, integer_position, unpack, recommend, &
+  use abaqus_properties, only: family_of, unknowns_of, variables_of, real_position, integer_position, unpack, recommend, &
     by_eigenvalues, by_equation_21, consistent_closure, complete_closure
   use cohesive_law_properties, only: bilinear_law, mixed_bilinear_law, ppr_law
   use elements_bulk_solid, only: has_formulation, reduced_integration
@@ -75,11 +76,12 @@ contains
     integer, intent(in) :: itype, jelem
     real(dp), intent(in) :: values(:)
     logical :: good
-    integer :: i
+    integer :: i, position, family
 
     good = .true.
-    do i = 1, size(reals)
-      if (iand(reals(i)%families, elements(itype)%family) == 0) cycle
+    family = family_of(itype)
+    do position = 1, elements(itype)%reals
+      i = rows_of_reals(position, family)
       select case (reals(i)%rule)
       case (positive)
         good = values(i) > 0.0_dp
@@ -131,11 +133,12 @@ contains
     integer, intent(in) :: itype, jelem
     integer, intent(in) :: options(:)
     logical :: good
-    integer :: i
+    integer :: i, position, family
 
     good = .true.
-    do i = 1, size(integers)
-      if (iand(integers(i)%families, elements(itype)%family) == 0) cycle
+    family = family_of(itype)
+    do position = 1, elements(itype)%integers
+      i = rows_of_integers(position, family)
       if (integers(i)%highest == any_integer) cycle
       good = options(i) >= integers(i)%lowest .and. options(i) <= integers(i)%highest
       if (good) cycle

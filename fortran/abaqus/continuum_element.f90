@@ -15,6 +15,7 @@ module abaqus_continuum_element
   use core_solid_rotation, only: solid_turn, find_turn, turn_forces, turn_stiffness
   use core_status, only: status_type, ok, inside_out
   use core_incompatible_modes, only: condense
+  use core_small_matrix, only: add_combination, add_product
   use materials_linear_elasticity, only: plane_strain
   use materials_spectral_norm, only: spectral_norm
   use elements_continuum_solid, only: modes_of, solid_gradient, solid_points, solid_shape, solid_strains
@@ -94,9 +95,14 @@ contains
       ! those of the face follow the Gauss points
       places = this%nodes
       if (this%face /= 0) places = places + middle_place(dim)
-      call integrate(this, dim, this%nodes, this%strains, dim*this%nodes, dim*this%nodes + modes, places, &
-        merge(values(p_thickness), 1.0_dp, dim == 2), values(p_angle), values(directions), coords(1:dim, :), u, predef, &
-        materiallib, svars, energy, pnewdt, residual, tangent, good)
+      ! a compiler makes more of loops whose length it knows
+      if (dim == 2) then
+        call integrate(this, 2, 4, 3, 8, 8 + modes, places, values(p_thickness), 0.0_dp, values(directions), coords(1:2, :), u, &
+          predef, materiallib, svars, energy, pnewdt, residual, tangent, good)
+      else
+        call integrate(this, 3, 8, 6, 24, 24 + modes, places, 1.0_dp, values(p_angle), values(directions), coords, u, predef, &
+          materiallib, svars, energy, pnewdt, residual, tangent, good)
+      end if
     end associate
   end subroutine evaluate_continuum
 
@@ -170,8 +176,8 @@ contains
   subroutine integrate(this, dim, nodes, strains, m, n, places, thickness, angle, direction, coordinates, u, predef, materiallib, &
     svars, energy, pnewdt, residual, tangent, good)
     type(element_call), intent(in) :: this
-    integer, intent(in) :: dim, nodes, strains
-    integer, intent(in) :: m, n                  !< unknowns of the nodes, and with the modes
+    integer, value :: dim, nodes, strains
+    integer, value :: m, n                       !< unknowns of the nodes, and with the modes
     integer, intent(in) :: places                !< Gauss points, then places on the face
     real(dp), intent(in) :: thickness
     real(dp), intent(in) :: angle, direction(3)  !< of the ply from s, degrees, and of s; zero: that of x
@@ -182,7 +188,8 @@ contains
     logical, intent(out) :: good
     real(dp) :: parents(dim, places), b(n, strains, places), volume(places), to_ply(strains, strains), unknowns(n)
     real(dp) :: strain(strains, nodes), stress(strains, nodes), modulus(strains, strains, nodes)
-    real(dp) :: force(n), matrix(n, n), inverse(n - m, n - m), nodal(m), stiffness(m, m)
+    real(dp) :: force(n), matrix(n, n), inverse(n - m, n - m), nodal(m), stiffness(m, m), stresses(n, strains, nodes)
+    real(dp) :: along_ply(n, strains)
     real(dp), parameter :: middle(3) = 0.0_dp    ! parent coordinates
     real(dp) :: gradient(dim, nodes)
     type(solid_turn) :: turn
@@ -204,7 +211,9 @@ contains
       return
     end if
     do k = 1, merge(places, 0, dim == 3)
-      b(:, :, k) = matmul(b(:, :, k), transpose(to_ply))
+      along_ply = 0.0_dp
+      call add_product(n, strains, strains, b(:, :, k), to_ply, along_ply)
+      b(:, :, k) = along_ply
     end do
     unknowns = 0.0_dp
     unknowns(:m) = u
@@ -220,17 +229,24 @@ contains
     call find_stress(this, dim, nodes, strains, m, n, thickness, coordinates, u, parents(:, :nodes), predef, materiallib, &
       b(:, :, :nodes), volume(:nodes), unknowns, svars, energy(2), pnewdt, strain, stress, modulus, force, matrix, inverse, good)
     if (.not. good) return
-    do k = 1, merge(nodes, 0, this%with_tangent)
-      call add_stiffness(n, strains, 1, m, thickness*volume(k), b(:, :, k), modulus(:, :, k), matrix)
-    end do
     nodal = force(:m)
-    stiffness = matrix(:m, :m)
-    if (n > m) call condense(m, inverse, force, matrix, nodal, stiffness)
-    residual = -nodal
-    if (this%finite) residual = -turn_forces(dim, nodes, turn, nodal)
     if (this%with_tangent) then
-      tangent = stiffness
-      if (this%finite) tangent = turn_stiffness(dim, nodes, turn, nodal, stiffness)
+      do k = 1, nodes
+        stresses(:, :, k) = stress_matrix(n, strains, thickness*volume(k), b(:, :, k), modulus(:, :, k))
+      end do
+      call add_product(n, m, strains*nodes, b, stresses(:m, :, :), matrix)
+    end if
+    if (n > m) then
+      call condense(m, inverse, force, matrix, nodal, stiffness)
+    else
+      stiffness = matrix
+    end if
+    if (this%finite) then
+      residual = -turn_forces(dim, nodes, turn, nodal)
+      if (this%with_tangent) tangent = turn_stiffness(dim, nodes, turn, nodal, stiffness)
+    else
+      residual = -nodal
+      if (this%with_tangent) tangent = stiffness
     end if
     if (this%face == 0) return
     call store_for_neighbours(this, dim, nodes, strains, n, places - nodes, coordinates, u, unknowns, sum(volume(:nodes)), turn, &
@@ -242,7 +258,7 @@ contains
   subroutine find_stress(this, dim, nodes, strains, m, n, thickness, coordinates, u, parents, predef, materiallib, b, volume, &
     unknowns, svars, energy, pnewdt, strain, stress, modulus, force, matrix, inverse, good)
     type(element_call), intent(in) :: this
-    integer, intent(in) :: dim, nodes, strains, m, n
+    integer, value :: dim, nodes, strains, m, n
     real(dp), intent(in) :: thickness, coordinates(dim, nodes), u(dim, nodes), parents(dim, nodes), predef(:, :, :)
     integer, intent(in) :: materiallib(*)
     real(dp), intent(in) :: b(n, strains, nodes), volume(nodes)
@@ -278,7 +294,7 @@ contains
 
     !> What the unknowns make of the points.
     subroutine update_points()
-      real(dp) :: shape(nodes), place(dim), weight, length
+      real(dp) :: shape(nodes), place(dim), weight, length, by_modes(n, strains)
       integer :: a, i, k
 
       length = merge(sqrt(sum(volume)), sum(volume)**(1.0_dp/3.0_dp), dim == 2)
@@ -301,12 +317,11 @@ contains
         call call_material(this, k, shape, place, length, weight, predef, materiallib, strain(:, k), state, stress(:, k), &
           modulus(:, :, k), work, good)
         if (.not. good) return
-        do i = 1, strains
-          force = force + (weight*stress(i, k))*b(:, i, k)
-        end do
+        call add_combination(n, strains, b(:, :, k), weight*stress(:, k), force)
         if (n == m) cycle
         stored = stored + weight*sum(stress(:, k)**2)/max(maxval(abs(modulus(:, :, k))), tiny(1.0_dp))
-        call add_stiffness(n, strains, m + 1, n, weight, b(:, :, k), modulus(:, :, k), matrix)
+        by_modes = stress_matrix(n, strains, weight, b(:, :, k), modulus(:, :, k))
+        call add_product(n, n - m, strains, b(:, :, k), by_modes(m + 1:, :), matrix(:, m + 1:))
       end do
     end subroutine update_points
 
@@ -421,45 +436,16 @@ contains
     end do
   end subroutine find_ply_strains
 
-  !> Adds columns of the stiffness of a point.
-  pure subroutine add_stiffness(n, strains, first, last, weight, b, modulus, matrix)
-    integer, intent(in) :: n, strains, first, last
-    real(dp), intent(in) :: weight                       !< volume of the point
+  !> Stress of a point, times its volume, by the unknowns.
+  pure function stress_matrix(n, strains, weight, b, modulus) result(matrix)
+    integer, intent(in) :: n, strains
+    real(dp), intent(in) :: weight                                     !< volume of the point
     real(dp), intent(in) :: b(n, strains), modulus(strains, strains)   !< modulus need not be symmetric
-    real(dp), intent(inout) :: matrix(n, n)
+    real(dp) :: matrix(n, strains)
 
-    ! a compiler makes more of loops whose length it knows
-    if (n == 8 .and. strains == 3) then
-      call add_columns(8, 3, first, last, weight, b, modulus, matrix)
-    else
-      call add_columns(n, strains, first, last, weight, b, modulus, matrix)
-    end if
-  end subroutine add_stiffness
-
-  !> The same with its sizes.
-  pure subroutine add_columns(n, strains, first, last, weight, b, modulus, matrix)
-    integer, value :: n, strains
-    integer, intent(in) :: first, last
-    real(dp), intent(in) :: weight                       !< volume of the point
-    real(dp), intent(in) :: b(n, strains), modulus(strains, strains)   !< modulus need not be symmetric
-    real(dp), intent(inout) :: matrix(n, n)
-    real(dp) :: stress(n, strains)      ! by the unknowns
-    integer :: i, j
-
-    ! loops: for such small matrices matmul costs more than the products; strains come in threes
-    stress = 0.0_dp
-    do j = 1, strains
-      do i = 1, strains, 3
-        stress(:, j) = stress(:, j) + (weight*modulus(j, i))*b(:, i) + (weight*modulus(j, i + 1))*b(:, i + 1) &
-          + (weight*modulus(j, i + 2))*b(:, i + 2)
-      end do
-    end do
-    do j = first, last
-      do i = 1, strains, 3
-        matrix(:, j) = matrix(:, j) + stress(j, i)*b(:, i) + stress(j, i + 1)*b(:, i + 1) + stress(j, i + 2)*b(:, i + 2)
-      end do
-    end do
-  end subroutine add_columns
+    matrix = 0.0_dp
+    call add_product(n, strains, strains, b, weight*modulus, matrix)
+  end function stress_matrix
 
   !> Stores stresses and sizes for the adjacent interface elements. The stress at a place on the face is that of the Gauss point
   !> next to it, carried there by the stiffness: exact in linear elasticity, without another call of the material. In the middle

@@ -5,11 +5,11 @@
 module abaqus_properties
   use, intrinsic :: iso_c_binding, only: c_int
   use core_kinds, only: dp
-  use abaqus_layout, only: elements, faces, reals, integers, interfaces, stabilised, next_to_solids, &
-    p_betan, p_betat, j_law, j_closure
+  use abaqus_layout, only: elements, faces, reals, integers, rows_of_reals, rows_of_integers, interfaces, stabilised, &
+    next_to_solids, p_betan, p_betat, j_law, j_closure
   implicit none(type, external)
   private
-  public :: row_of, unknowns_of, variables_of, variables_of_points, nodes_of_face, face_nodes
+  public :: row_of, family_of, unknowns_of, variables_of, variables_of_points, nodes_of_face, face_nodes
   public :: real_position, integer_position, unpack, recommend, delamination_layout_version
 
   ! values that choose among laws and estimates; 0 stands for what the element is made for, see `recommend`
@@ -26,10 +26,18 @@ contains
     integer, intent(in) :: jtype
     integer :: itype
 
-    do itype = size(elements), 1, -1
+    do itype = 1, size(elements)
       if (elements(itype)%jtype == jtype) return
     end do
+    itype = 0
   end function row_of
+
+  !> Number of the family of a type: its column in `rows_of_reals` and `rows_of_integers`.
+  pure integer function family_of(itype)
+    integer, intent(in) :: itype
+
+    family_of = 1 + trailz(elements(itype)%family)
+  end function family_of
 
   !> Number of unknowns.
   pure function unknowns_of(itype) result(number)
@@ -111,22 +119,16 @@ contains
     integer, intent(in) :: jprops(elements(itype)%integers)
     real(dp), intent(out) :: values(size(reals))
     integer, intent(out) :: options(size(integers))
-    integer :: row, position, family
+    integer :: position, family
 
-    family = elements(itype)%family
+    family = family_of(itype)
     values = 0.0_dp
-    position = 0
-    do row = 1, size(reals)
-      if (iand(reals(row)%families, family) == 0) cycle
-      position = position + 1
-      values(row) = props(position)
+    do position = 1, size(props)
+      values(rows_of_reals(position, family)) = props(position)
     end do
     options = 0
-    position = 0
-    do row = 1, size(integers)
-      if (iand(integers(row)%families, family) == 0) cycle
-      position = position + 1
-      options(row) = jprops(position)
+    do position = 1, size(jprops)
+      options(rows_of_integers(position, family)) = jprops(position)
     end do
   end subroutine unpack
 

@@ -8,9 +8,9 @@ module elements_continuum_solid
   use core_cells, only: cell_gradient, is_product
   use core_kinds, only: dp
   use core_mean_dilatation, only: mean_volume_strain, set_volume_strain
-  use core_quadrature, only: gauss_point
+  use core_quadrature, only: gauss_abscissa
   use core_serendipity, only: brick_gradient, brick_places, quad_places, quad8_gradient
-  use core_shape_functions, only: quad_gradient
+  use core_shape_functions, only: quad_gradient, quad_shape
   use core_status, only: status_type, ok, inside_out
   use core_incompatible_modes, only: mode_matrix
   use core_strains, only: strain_matrix
@@ -71,11 +71,13 @@ contains
   pure function solid_points(dim) result(points)
     integer, intent(in) :: dim
     real(dp) :: points(dim, 2**dim)
-    real(dp) :: weight
-    integer :: k
+    integer :: i, k
 
+    ! the first direction first
     do k = 1, 2**dim
-      call gauss_point(dim, 2, k, points(:, k), weight)
+      do i = 1, dim
+        points(i, k) = merge(gauss_abscissa, -gauss_abscissa, btest(k - 1, i - 1))
+      end do
     end do
   end function solid_points
 
@@ -86,6 +88,10 @@ contains
     real(dp) :: shape(2**dim)
     integer :: i, nodes(dim, 2**dim)
 
+    if (dim == 2) then
+      shape = quad_shape(place)
+      return
+    end if
     nodes = node_places(dim)
     shape = 0.5_dp**dim
     do i = 1, dim
@@ -102,7 +108,7 @@ contains
     real(dp), intent(out) :: b(n, strains, size(places, 2)), jacobian(size(places, 2))
     type(status_type), intent(out) :: status             !< inside_out at a Gauss point, with the Jacobian
     real(dp), parameter :: origin(3) = 0.0_dp
-    real(dp) :: gradient(dim, 2**dim), mean(n), to_parent(dim, dim), at_middle
+    real(dp) :: gradient(dim, 2**dim), by_node(2**dim, dim), mean(n), to_parent(dim, dim), at_middle
     integer :: k, nodes
 
     nodes = 2**dim
@@ -119,7 +125,8 @@ contains
       jacobian(k) = status%value
       if (status%code /= ok .and. k <= nodes) return
       if (status%code /= ok) cycle
-      call strain_matrix(dim, dim, nodes, transpose(gradient), b(:dim*nodes, :, k))
+      by_node = transpose(gradient)
+      call strain_matrix(dim, dim, nodes, by_node, b(:dim*nodes, :, k))
       if (formulation == incompatible_modes) call mode_matrix(dim, n - dim*nodes, strains, places(:, k), to_parent, &
         at_middle/jacobian(k), b(dim*nodes + 1:, :, k))
     end do

@@ -34,6 +34,8 @@ module elements_interface_kernel
   private
   public :: integrate_interface, interface_forces
 
+  real(dp), parameter :: identity(3, 3) = reshape([1.0_dp, 0.0_dp, 0.0_dp, 0.0_dp, 1.0_dp, 0.0_dp, 0.0_dp, 0.0_dp, 1.0_dp], [3, 3])
+
 contains
 
   !> Residual (external minus internal force), tangent and state at the end of the increment.
@@ -72,10 +74,10 @@ contains
     ! operators by the displacements are transposed, (unknowns, components), so that loops over unknowns are along the memory
     real(dp), dimension(size(u), dim, points) :: jumps, bulks, changes, changes_of_gap
     real(dp) :: at_rest(dim, points)
-    real(dp), dimension(size(u), dim) :: jump, change
+    real(dp), dimension(size(u), dim) :: jump
     real(dp), dimension(size(u)) :: moved, original, shifted, force
     real(dp) :: turning(3, dim, dim, size(faces, 1)), turning_faces(3, dim, dim, size(faces, 1), 2)
-    real(dp) :: bulk_traction(3), gap(3), separation(3), area
+    real(dp) :: bulk_traction(3), gap(3), separation(3), directions(3, 3), area
     logical :: layer, opposite
     integer :: i, k, nodes, split
 
@@ -111,12 +113,13 @@ contains
     end if
 
     of_point = law
+    moved = u
+    directions = identity
     do k = 1, points
       call begin_rate(of_point, old(k)%history%separation, dtime)
       new(k)%position = places(k)%position
-      here = places(k)
-      moved = u
       if (options%finite) then
+        here = places(k)
         call turn_place(dim, nodes, faces, original, shifted, here, turning, status)
         if (status%code /= ok) return
         moved = co_rotated(dim, places(k)%frame, here%frame, original, shifted)
@@ -141,7 +144,12 @@ contains
             bulk_traction(i) = dot_product(moved, bulks(:, i, k)) + at_rest(i, k)
           end do
         else
-          bulk_traction = matmul(here%frame, matmul(neighbours(:, :, k), places(k)%frame(2, :)))
+          bulk_traction = matmul(neighbours(:, :, k), places(k)%frame(2, :))
+          if (options%finite) then
+            bulk_traction = matmul(here%frame, bulk_traction)
+          else
+            bulk_traction = matmul(places(k)%frame, bulk_traction)
+          end if
         end if
         call stabilised_point(of_point, options, dtime, stabilisation%beta, separation, bulk_traction, old(k), new(k), response, &
           status)
@@ -170,19 +178,17 @@ contains
       call add_combination(size(u), dim, jump, -area*new(k)%traction, residual)
       if (options%complete) call add_combination(size(u), dim, bulks(:, :, k), -area*gap, residual)
       if (.not. with_tangent) cycle
-      change = 0.0_dp
-      call add_product(size(u), dim, dim, jump, area*response%by_jump(1:dim, 1:dim), change)
-      if (present(solids)) call add_product(size(u), dim, dim, bulks(:, :, k), area*response%by_bulk(1:dim, 1:dim), change)
-      do i = 1, merge(dim, 0, options%complete)
-        changes_of_gap(:, i, k) = (1.0_dp/stabilisation%beta(mode_of(i)))*(change(:, i) - area*bulks(:, i, k))
+      jumps(:, :, k) = jump
+      if (opposite) directions = transpose(places(k)%frame)
+      changes(:, :, k) = 0.0_dp
+      call add_response(matmul(directions, area*response%by_jump), matmul(directions, area*response%by_bulk), changes(:, :, k))
+      if (.not. options%complete) cycle
+      do i = 1, 3
+        response%by_jump(i, :) = (area/stabilisation%beta(mode_of(i)))*response%by_jump(i, :)
+        response%by_bulk(i, :) = (area/stabilisation%beta(mode_of(i)))*(response%by_bulk(i, :) - identity(i, :))
       end do
-      if (opposite) then
-        changes(:, :, k) = 0.0_dp
-        call add_product(size(u), dim, dim, change, transpose(places(k)%frame(1:dim, 1:dim)), changes(:, :, k))
-      else
-        changes(:, :, k) = change
-        jumps(:, :, k) = jump
-      end if
+      changes_of_gap(:, :, k) = 0.0_dp
+      call add_response(response%by_jump, response%by_bulk, changes_of_gap(:, :, k))
     end do
     if (.not. with_tangent) return
     if (opposite) then
@@ -191,6 +197,18 @@ contains
       call add_product(size(u), size(u), dim*points, jumps, changes, tangent)
     end if
     if (options%complete) call add_product(size(u), size(u), dim*points, bulks, changes_of_gap, tangent)
+
+  contains
+
+    !> Adds what changes of the jump and the bulk traction of point k make of a vector there, by the displacements.
+    pure subroutine add_response(by_jump, by_bulk, change)
+      real(dp), intent(in) :: by_jump(3, 3), by_bulk(3, 3)
+      real(dp), intent(inout) :: change(size(u), dim)
+
+      call add_product(size(u), dim, dim, jumps(:, :, k), by_jump(1:dim, 1:dim), change)
+      if (present(solids)) call add_product(size(u), dim, dim, bulks(:, :, k), by_bulk(1:dim, 1:dim), change)
+    end subroutine add_response
+
   end subroutine integrate_interface
 
   !> Residual of tractions that are known, such as those at the start of an increment, at the displacements that they belong to.
