@@ -3,6 +3,7 @@
 !> Incompatible modes: their strains at a point, and how they are condensed. Strains are those of core_strains.
 module core_incompatible_modes
   use core_kinds, only: dp
+  use core_small_matrix, only: add_combination, add_product
   use core_strains, only: strain_matrix
   implicit none(type, external)
   private
@@ -28,11 +29,15 @@ contains
     real(dp), intent(in) :: to_parent(dim, dim)   !< gradients of the parent coordinates in the middle, a row each
     real(dp), intent(in) :: ratio                 !< j0/j
     real(dp), intent(out) :: b(modes, strains)
-    real(dp) :: products(4)
+    real(dp) :: products(4), gradient(dim, dim), of_gradient(dim*dim, strains)
     integer :: i, k
 
     ! a direction acts on the strain like a node
-    call strain_matrix(dim, dim, dim, reshape([(ratio*xi*to_parent(:, i), i=1, dim)], [dim, dim]), b(:dim**2, :))
+    do i = 1, dim
+      gradient(:, i) = ratio*xi*to_parent(:, i)
+    end do
+    call strain_matrix(dim, dim, dim, gradient, of_gradient)
+    b(:dim**2, :) = of_gradient
     products = xi(1)*xi(2)
     if (dim == 3) products(2:) = [xi(2)*xi(3), xi(3)*xi(1), product(xi)]
     do k = dim**2 + 1, modes
@@ -49,10 +54,15 @@ contains
     real(dp), intent(in) :: all_force(:), all_stiffness(:, :)
     real(dp), intent(out) :: force(n), stiffness(n, n)
     real(dp) :: across(n, size(all_force) - n)
+    integer :: modes
 
-    across = matmul(all_stiffness(:n, n + 1:), inverse)
-    force = all_force(:n) - matmul(across, all_force(n + 1:))
-    stiffness = all_stiffness(:n, :n) - matmul(across, all_stiffness(n + 1:, :n))
+    modes = size(all_force) - n
+    across = 0.0_dp
+    call add_product(n, modes, modes, all_stiffness(:n, n + 1:), -transpose(inverse), across)
+    force = all_force(:n)
+    call add_combination(n, modes, across, all_force(n + 1:), force)
+    stiffness = all_stiffness(:n, :n)
+    call add_product(n, n, modes, across, transpose(all_stiffness(n + 1:, :n)), stiffness)
   end subroutine condense
 
 end module core_incompatible_modes

@@ -81,7 +81,7 @@ contains
     real(dp), intent(in) :: places(:, :)             !< (dim, places) parent coordinates
     real(dp), intent(out) :: b(dim*solid%nodes, 3*(dim - 1), size(places, 2))
     type(status_type), intent(out) :: status         !< inside_out with the Jacobian; not_positive_definite
-    real(dp), intent(out), optional :: b_points(:, :, :), volumes(:)
+    real(dp), intent(out), optional :: b_points(:, :, :), volumes(:)   !< both or none
     real(dp) :: own(dim*solid%nodes, 3*(dim - 1), points_of(dim, solid)), own_volumes(points_of(dim, solid))
     real(dp) :: shares(points_of(dim, solid))
     logical :: reduced
@@ -89,8 +89,8 @@ contains
 
     b = 0.0_dp
     if (any(solid%formulation == [incompatible_modes, mean_volume])) then
-      call assumed_strains(dim, dim*solid%nodes + modes_of(dim, solid%plane, solid%formulation), solid, coordinates, places, b, &
-        own, own_volumes, status)
+      call assumed_strains(dim, dim*solid%nodes, modes_of(dim, solid%plane, solid%formulation), solid, coordinates, places, &
+        present(b_points), b, own, own_volumes, status)
     else
       reduced = solid%formulation == reduced_integration
       if (present(b_points) .or. reduced .or. .not. is_product(dim, solid%nodes)) then
@@ -115,49 +115,67 @@ contains
 
   !> The same with incompatible modes or the mean volume strain. The modes take the values that leave no force on them:
   !> b - b_modes inverse(K_mm) K_mu.
-  pure subroutine assumed_strains(dim, n, solid, coordinates, places, b, b_points, volumes, status)
+  pure subroutine assumed_strains(dim, m, modes, solid, coordinates, places, with_points, b, b_points, volumes, status)
     integer, intent(in) :: dim
-    integer, intent(in) :: n             !< unknowns, with those of the modes
+    integer, intent(in) :: m, modes      !< unknowns of the nodes, and of the modes
     type(solid_type), intent(in) :: solid
     real(dp), intent(in) :: coordinates(dim, 2**dim), places(:, :)
-    real(dp), intent(out) :: b(dim*2**dim, 3*(dim - 1), size(places, 2)), b_points(dim*2**dim, 3*(dim - 1), 2**dim)
+    logical, intent(in) :: with_points
+    real(dp), intent(out) :: b(m, 3*(dim - 1), size(places, 2))
+    real(dp), intent(out) :: b_points(m, 3*(dim - 1), 2**dim)   !< only with
     real(dp), intent(out) :: volumes(2**dim)
     type(status_type), intent(out) :: status
-    real(dp) :: all_places(dim, 2**dim + size(places, 2)), everything(n, 3*(dim - 1), 2**dim + size(places, 2))
-    real(dp) :: jacobians(2**dim + size(places, 2)), by_strain(n, 3*(dim - 1))
-    real(dp) :: matrix(n - dim*2**dim, n), inverse(n - dim*2**dim, n - dim*2**dim), values(dim*2**dim, n - dim*2**dim)
-    integer :: k, m, points
+    real(dp) :: all_places(dim, 2**dim + size(places, 2)), jacobians(2**dim + size(places, 2))
+    real(dp) :: everything(m + modes, 3*(dim - 1), 2**dim + size(places, 2)), stiffness(3*(dim - 1), 3*(dim - 1))
+    real(dp) :: stresses(m + modes, 3*(dim - 1), 2**dim), matrix(m + modes, modes), inverse(modes, modes), values(m, modes)
+    integer :: k, points, strains
     logical :: good
 
-    m = dim*2**dim
     points = 2**dim
+    strains = 3*(dim - 1)
     all_places(:, 1:points) = solid_points(dim)
     all_places(:, points + 1:) = places
-    call solid_strains(dim, n, 3*(dim - 1), solid%formulation, coordinates, all_places, everything, jacobians, status)
+    call solid_strains(dim, m + modes, strains, solid%formulation, coordinates, all_places, everything, jacobians, status)
     if (status%code /= ok) return
     if (.not. minval(jacobians) > 0.0_dp) then
       status = status_type(inside_out, 0, minval(jacobians), 0.0_dp)
       return
     end if
     volumes = jacobians(1:points)
-    if (n > m) then
-      matrix = 0.0_dp
+    values = 0.0_dp
+    if (modes > 0) then
+      stiffness = solid%stiffness(1:strains, 1:strains)
+      stresses = 0.0_dp
       do k = 1, points
-        by_strain = matmul(everything(:, :, k), solid%stiffness(1:3*(dim - 1), 1:3*(dim - 1)))
-        matrix = matrix + volumes(k)*matmul(everything(m + 1:, :, k), transpose(by_strain))
+        call add_product(m + modes, strains, strains, everything(:, :, k), volumes(k)*stiffness, stresses(:, :, k))
       end do
-      call invert_definite(matrix(:, m + 1:), inverse, good)
+      matrix = 0.0_dp
+      call add_product(m + modes, modes, strains*points, stresses, everything(m + 1:, :, 1:points), matrix)
+      call invert_definite(matrix(m + 1:, :), inverse, good)
       if (.not. good) then
         status = status_type(not_positive_definite, 0, 0.0_dp, 0.0_dp)
         return
       end if
-      values = matmul(transpose(matrix(:, 1:m)), inverse)
-      do k = 1, size(all_places, 2)
-        everything(1:m, :, k) = everything(1:m, :, k) - matmul(values, everything(m + 1:, :, k))
-      end do
+      call add_product(m, modes, modes, matrix(1:m, :), -inverse, values)
     end if
-    b_points = everything(1:m, :, 1:points)
-    b = everything(1:m, :, points + 1:)
+    do k = 1, merge(points, 0, with_points)
+      b_points(:, :, k) = condensed(k)
+    end do
+    do k = 1, size(places, 2)
+      b(:, :, k) = condensed(points + k)
+    end do
+
+  contains
+
+    !> Strains at a place by the displacements of the nodes alone.
+    pure function condensed(k)
+      integer, intent(in) :: k
+      real(dp) :: condensed(m, strains)
+
+      condensed = everything(1:m, :, k)
+      call add_product(m, strains, modes, values, transpose(everything(m + 1:, :, k)), condensed)
+    end function condensed
+
   end subroutine assumed_strains
 
   !> Strains of the displacements at the integration points; the one point of a quad of four or a brick of eight nodes has the mean
