@@ -25,6 +25,8 @@ contains
       call add_columns(16, m, terms, a, b, matrix)
     case (24)
       call add_columns(24, m, terms, a, b, matrix)
+    case (37)   ! bricks with incompatible modes
+      call add_columns(37, m, terms, a, b, matrix)
     case (48)
       call add_columns(48, m, terms, a, b, matrix)
     case default

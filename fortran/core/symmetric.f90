@@ -28,29 +28,32 @@ contains
     good = .true.
   end subroutine lower_factor
 
-  !> Inverse of a positive definite matrix, by its Cholesky factor L: the columns x of L transpose(L) x = unit vector.
+  !> Inverse of a positive definite matrix, by its Cholesky factor L: L transpose(L) X = I. It is symmetric, so that columns in place
+  !> of its rows are along the memory.
   pure subroutine invert_definite(matrix, inverse, good)
     real(dp), intent(in) :: matrix(:, :)
     real(dp), intent(out) :: inverse(size(matrix, 1), size(matrix, 1))   !< zero where the matrix is not positive definite
     logical, intent(out) :: good
-    real(dp) :: l(size(matrix, 1), size(matrix, 1)), x(size(matrix, 1))
-    integer :: i, j, n
+    real(dp) :: l(size(matrix, 1), size(matrix, 1))
+    integer :: i, k, n
 
     n = size(matrix, 1)
     l = matrix
     inverse = 0.0_dp
     call lower_factor(l, good)
     if (.not. good) return
-    do j = 1, n
-      x = 0.0_dp
-      x(j) = 1.0_dp
-      do i = j, n
-        x(i) = (x(i) - dot_product(l(i, 1:i - 1), x(1:i - 1)))/l(i, i)
+    do i = 1, n
+      inverse(i, i) = 1.0_dp
+      do k = 1, i - 1
+        inverse(:, i) = inverse(:, i) - l(i, k)*inverse(:, k)
       end do
-      do i = n, 1, -1
-        x(i) = (x(i) - dot_product(l(i + 1:n, i), x(i + 1:n)))/l(i, i)
+      inverse(:, i) = inverse(:, i)/l(i, i)
+    end do
+    do i = n, 1, -1
+      do k = i + 1, n
+        inverse(:, i) = inverse(:, i) - l(k, i)*inverse(:, k)
       end do
-      inverse(:, j) = x
+      inverse(:, i) = inverse(:, i)/l(i, i)
     end do
   end subroutine invert_definite
 
