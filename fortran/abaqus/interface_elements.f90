@@ -95,11 +95,9 @@ contains
     type(interface_options) :: choice
     type(stabilisation_type) :: stabilisation
     type(interface_point), dimension(elements(itype)%points) :: old, new
-    type(engineering_constants) :: materials(2)
-    type(solid_type) :: solids(2)
     type(status_type) :: status
     real(dp) :: energies(3), stress(3, 3, elements(itype)%points), original(elements(itype)%dimension, size(coords, 2))
-    real(dp) :: thickness, initial(2)
+    real(dp) :: thickness
     integer :: nodes(nodes_of_face(itype), 2), n, dim
 
     growth = huge(growth)
@@ -133,22 +131,10 @@ contains
       call integrate_interface(dim, n, nodes, law, choice, thickness, original, u, dtime, with_tangent, old, new, residual, &
         tangent, energies, status, stabilisation, neighbours=stress)
     case default
-      associate (own => svars(variables_of_points(itype) + 1:variables_of_points(itype) + own_variables))
-        call find_initial(itype, jelem, own, temperatures(1, :) - temperatures(2, :), values, initial, good)
-        if (.not. good) return
-        materials = materials_of_solids(values)
-        call find_solids(itype, jelem, materials, options, choice%direction, original(:, nodes(:, 1)), original(:, nodes(:, 2)), &
-          temperatures(1, :), initial, solids, good)
-        if (.not. good) return
-        ! a crack that is there from the start does not fail, and has no process zone
-        if (options(j_cracked) == 0) call warn_if_long(itype, jelem, nodes, original, choice%direction, materials, law, old)
-        if (stabilisation%local) call recall(own, stabilisation)
-        call integrate_interface(dim, n, nodes, law, choice, thickness, original, u, dtime, with_tangent, old, new, residual, &
-          tangent, energies, status, stabilisation, solids)
-        own([o_betat, o_betan]) = stabilisation%beta
-        own([o_gammat, o_gamman]) = stabilisation%gamma_bottom
-        own([o_temp0_bottom, o_temp0_top]) = initial
-      end associate
+      call integrate_with_solids(itype, jelem, values, options, law, choice, original, nodes, u, temperatures, dtime, &
+        with_tangent, svars(variables_of_points(itype) + 1:variables_of_points(itype) + own_variables), old, new, stabilisation, &
+        residual, tangent, energies, status, good)
+      if (.not. good) return
     end select
     good = status%code == ok
     if (good) then
@@ -162,6 +148,47 @@ contains
       call report_status(itype, jelem, status)
     end if
   end subroutine evaluate_interface
+
+  !> The kernel of an element with solids of its own; `good` is false after a message.
+  subroutine integrate_with_solids(itype, jelem, values, options, law, choice, coordinates, nodes, u, temperatures, dtime, &
+    with_tangent, own, old, new, stabilisation, residual, tangent, energies, status, good)
+    integer, intent(in) :: itype, jelem
+    real(dp), intent(in) :: values(:)                       !< properties by their rows in the layout
+    integer, intent(in) :: options(:)
+    type(law_parameters), intent(in) :: law
+    type(interface_options), intent(in) :: choice
+    real(dp), intent(in) :: coordinates(:, :), u(:)
+    integer, intent(in) :: nodes(:, :)                      !< of the bottom and the top face, a column each
+    real(dp), intent(in) :: temperatures(:, :)              !< (2, nodes) at the end of the increment, and its change
+    real(dp), intent(in) :: dtime
+    logical, intent(in) :: with_tangent
+    real(dp), intent(inout) :: own(own_variables)           !< SVARS of the element
+    type(interface_point), intent(in) :: old(:)
+    type(interface_point), intent(out) :: new(:)
+    type(stabilisation_type), intent(inout) :: stabilisation
+    real(dp), intent(out) :: residual(:), energies(3)
+    real(dp), contiguous, intent(inout) :: tangent(:, :)
+    type(status_type), intent(out) :: status
+    logical, intent(out) :: good
+    type(engineering_constants) :: materials(2)
+    type(solid_type) :: solids(2)
+    real(dp) :: initial(2)
+
+    call find_initial(itype, jelem, own, temperatures(1, :) - temperatures(2, :), values, initial, good)
+    if (.not. good) return
+    materials = materials_of_solids(values)
+    call find_solids(itype, jelem, materials, options, choice%direction, coordinates(:, nodes(:, 1)), coordinates(:, nodes(:, 2)), &
+      temperatures(1, :), initial, solids, good)
+    if (.not. good) return
+    ! a crack that is there from the start does not fail, and has no process zone
+    if (options(j_cracked) == 0) call warn_if_long(itype, jelem, nodes, coordinates, choice%direction, materials, law, old)
+    if (stabilisation%local) call recall(own, stabilisation)
+    call integrate_interface(size(coordinates, 1), size(old), nodes, law, choice, thickness_of(itype, values), coordinates, u, &
+      dtime, with_tangent, old, new, residual, tangent, energies, status, stabilisation, solids)
+    own([o_betat, o_betan]) = stabilisation%beta
+    own([o_gammat, o_gamman]) = stabilisation%gamma_bottom
+    own([o_temp0_bottom, o_temp0_top]) = initial
+  end subroutine integrate_with_solids
 
   !> Largest ratio of the next increment to this one that PACING asks for where damage grows.
   pure function paced_growth(law, dtime, old, new) result(growth)

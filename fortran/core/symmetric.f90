@@ -28,8 +28,8 @@ contains
     good = .true.
   end subroutine lower_factor
 
-  !> Inverse of a positive definite matrix, by its Cholesky factor L: L transpose(L) X = I. It is symmetric, so that columns in place
-  !> of its rows are along the memory.
+  !> Inverse X of a positive definite matrix, by its Cholesky factor L: L transpose(L) X = I. It is symmetric, so that columns may
+  !> stand for its rows, along the memory.
   pure subroutine invert_definite(matrix, inverse, good)
     real(dp), intent(in) :: matrix(:, :)
     real(dp), intent(out) :: inverse(size(matrix, 1), size(matrix, 1))   !< zero where the matrix is not positive definite

@@ -316,7 +316,7 @@ contains
     call check_beta(steepest, stabilisation%beta, status)
   end subroutine suit_law
 
-  !> Adds the change of the nodal forces to a matrix where they are the tractions times the shape functions, and opposite on both faces.
+  !> Adds the change of the nodal forces to a matrix where they are the tractions times the shape functions, opposite on both faces.
   pure subroutine add_opposite_forces(dim, nodes, points, faces, n, places, changes, matrix)
     integer, intent(in) :: dim, nodes, points, faces(nodes, 2)
     integer, intent(in) :: n                               !< unknowns
