@@ -3,7 +3,7 @@
 !> Local frames of lines, surfaces and plies, and the rotation of a deformation.
 module core_rotation
   use core_kinds, only: dp
-  use core_small_matrix, only: invert
+  use core_small_matrix, only: add_product, invert
   implicit none(type, external)
   private
   public :: about_mean, cross, line_frame, surface_frame, ply_axes, turned_frame, frame_curvature
@@ -164,7 +164,7 @@ contains
     real(dp) :: plane(3, 2), shares(2, 2), second_by_node(nodes), length, measure
     real(dp), dimension(3) :: line, normal, second, along, across, rest, change
     real(dp), dimension(dim*nodes) :: stretch, stretch_of_normal
-    real(dp), dimension(3, dim*nodes) :: of_line, of_normal, crossed
+    real(dp), dimension(3, dim*nodes) :: of_line, of_normal, crossed, of_second
     integer :: i, j, q, p, row, column
 
     of_line = 0.0_dp
@@ -205,6 +205,7 @@ contains
     rest = (rest - dot_product(rest, normal)*normal)/measure
     do column = 1, 3*nodes
       crossed(:, column) = cross(of_line(:, column), moments(3, :))
+      of_second(:, column) = cross(of_normal(:, column), across)
     end do
     do column = 1, 3*nodes
       p = (column + 2)/3
@@ -214,8 +215,7 @@ contains
         i = row - 3*(q - 1)
         curvature(row, column) = curvature(row, column) + dot_product(of_normal(:, row), crossed(:, column)) &
           + dot_product(of_normal(:, column), crossed(:, row)) &
-          + dot_product(across, second_by_node(q)*cross(unit_vector(i), of_normal(:, column)) &
-          + second_by_node(p)*cross(unit_vector(j), of_normal(:, row)))
+          + second_by_node(q)*of_second(i, column) + second_by_node(p)*of_second(j, row)
         if (i == j) cycle
         ! unit vectors i and j have the third one, or its opposite, as their cross product
         curvature(row, column) = curvature(row, column) + (by_node(q, 1)*by_node(p, 2) - by_node(p, 1)*by_node(q, 2)) &
@@ -240,14 +240,16 @@ contains
     real(dp), intent(in) :: stretch(:)      !< that of log |L|
     real(dp), intent(in) :: force(3)
     real(dp) :: curvature(size(stretch), size(stretch))
-    real(dp) :: along(size(stretch))
-    integer :: j
+    real(dp), dimension(size(stretch), 5) :: first, second   ! factors of the terms of a sum of products
 
-    along = matmul(force, turning)
-    curvature = -dot_product(unit, force)*matmul(transpose(turning), turning)
-    do j = 1, size(stretch)
-      curvature(:, j) = curvature(:, j) - stretch*along(j) - along*stretch(j)
-    end do
+    second(:, 1:3) = transpose(turning)
+    first(:, 1:3) = -dot_product(unit, force)*second(:, 1:3)
+    first(:, 4) = -stretch
+    second(:, 4) = force(1)*second(:, 1) + force(2)*second(:, 2) + force(3)*second(:, 3)
+    first(:, 5) = -second(:, 4)
+    second(:, 5) = stretch
+    curvature = 0.0_dp
+    call add_product(size(stretch), size(stretch), 5, first, second, curvature)
   end function unit_curvature
 
   !> Rotation of the polar decomposition of a deformation gradient, by Newton's method for the square root (N.J. Higham,
@@ -290,7 +292,9 @@ contains
     real(dp), intent(in) :: a(3), b(3)
     real(dp) :: c(3)
 
-    c = [a(2)*b(3) - a(3)*b(2), a(3)*b(1) - a(1)*b(3), a(1)*b(2) - a(2)*b(1)]
+    c(1) = a(2)*b(3) - a(3)*b(2)
+    c(2) = a(3)*b(1) - a(1)*b(3)
+    c(3) = a(1)*b(2) - a(2)*b(1)
   end function cross
 
   !> Matrix that takes stress, in the plane (11, 22, 12), in space (11, 22, 33, 12, 13, 23), to the traction sigma.n in the

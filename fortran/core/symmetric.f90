@@ -100,9 +100,10 @@ contains
     real(dp), intent(inout), optional :: vectors(:, :)   !< rows that rotate along
     real(dp) :: cotangent, t, c, s
 
-    cotangent = (a(q, q) - a(p, p))/(2.0_dp*a(p, q))   ! of twice the angle
-    t = sign(1.0_dp, cotangent)/(abs(cotangent) + hypot(cotangent, 1.0_dp))
-    c = 1.0_dp/hypot(t, 1.0_dp)
+    ! of twice the angle; its square is finite, for a(p, q) is more than rounding errors
+    cotangent = (a(q, q) - a(p, p))/(2.0_dp*a(p, q))
+    t = sign(1.0_dp, cotangent)/(abs(cotangent) + sqrt(1.0_dp + cotangent**2))
+    c = 1.0_dp/sqrt(1.0_dp + t**2)
     s = t*c
     call turn(c, s, a(:, p), a(:, q))
     call turn(c, s, a(p, :), a(q, :))

@@ -282,8 +282,8 @@ contains
     real(dp), intent(out) :: joint                    !< of both, see there
     type(status_type), intent(out) :: status          !< inside_out with the Jacobian
     real(dp), dimension(dim*solid%nodes, 3*(dim - 1), size(samples, 2)) :: b
-    real(dp), dimension(dim*solid%nodes, 3*(dim - 1), points_of(dim, solid)) :: b_points
-    real(dp) :: volumes(points_of(dim, solid)), by_strain(dim*solid%nodes, 3*(dim - 1))
+    real(dp), dimension(dim*solid%nodes, 3*(dim - 1), points_of(dim, solid)) :: b_points, stresses
+    real(dp) :: volumes(points_of(dim, solid)), stiffness(3*(dim - 1), 3*(dim - 1))
     real(dp) :: energy(dim*solid%nodes, dim*solid%nodes), traction(dim*size(areas), dim*solid%nodes)
     integer :: i, k
 
@@ -291,11 +291,14 @@ contains
     joint = 2.0_dp
     call strains_at(dim, solid, coordinates, samples, b, status, b_points, volumes)
     if (status%code /= ok) return
-    energy = 0.0_dp
+    stiffness = solid%stiffness(1:size(stiffness, 1), 1:size(stiffness, 1))
+    stresses = 0.0_dp
     do k = 1, size(volumes)
-      by_strain = matmul(b_points(:, :, k), solid%stiffness(1:3*(dim - 1), 1:3*(dim - 1)))
-      energy = energy + volumes(k)*matmul(by_strain, transpose(b_points(:, :, k)))
+      call add_product(size(energy, 1), size(stiffness, 1), size(stiffness, 1), b_points(:, :, k), volumes(k)*stiffness, &
+        stresses(:, :, k))
     end do
+    energy = 0.0_dp
+    call add_product(size(energy, 1), size(energy, 1), size(stiffness, 1)*size(volumes), stresses, b_points, energy)
     traction = 0.0_dp
     do k = 1, size(areas)
       do i = 1, size(shares, 1)

@@ -203,32 +203,34 @@ contains
     real(dp), intent(in) :: force(size(present))             !< in the original directions, per area
     real(dp), intent(inout) :: tangent(:, :)
     real(dp) :: by_node(nodes, dim - 1), rows(dim, size(present)/dim), moments(3, 3), curvature(dim*nodes, dim*nodes)
-    real(dp) :: change(dim, size(present)/dim)
-    integer :: q, i, a, side, other, column, row, p
+    real(dp), dimension(size(present)) :: change, of_column
+    integer :: q, i, j, a, side, column, row, p
 
     rows = matmul(place%frame(1:dim, 1:dim), reshape(force, shape(rows)))
     moments = 0.0_dp
     moments(1:dim, 1:dim) = moments_of(dim, place%frame, force, present)
     by_node = place%slope(1:nodes, 1:dim - 1)
-    curvature = frame_curvature(dim, nodes, matmul(middle_of(dim, nodes, faces, original), by_node), &
+    curvature = (0.25_dp*area)*frame_curvature(dim, nodes, matmul(middle_of(dim, nodes, faces, original), by_node), &
       matmul(middle_of(dim, nodes, faces, present), by_node), place%frame, by_node, turned%frame, turning, moments)
+    rows = (0.5_dp*area)*rows
     do q = 1, nodes
       do i = 1, dim
-        change = (0.5_dp*area)*matmul(transpose(turning(1:dim, :, i, q)), rows)
+        do a = 1, size(rows, 2)
+          do j = 1, dim
+            change(dim*(a - 1) + j) = dot_product(turning(1:dim, j, i, q), rows(:, a))
+          end do
+        end do
+        of_column = change
+        do side = 1, 2
+          do p = 1, nodes
+            row = dim*(faces(p, side) - 1)
+            of_column(row + 1:row + dim) = of_column(row + 1:row + dim) + curvature(dim*(p - 1) + 1:dim*p, dim*(q - 1) + i)
+          end do
+        end do
         do side = 1, 2
           column = dim*(faces(q, side) - 1) + i
-          do a = 1, size(rows, 2)
-            row = dim*(a - 1)
-            tangent(row + 1:row + dim, column) = tangent(row + 1:row + dim, column) + change(:, a)
-            tangent(column, row + 1:row + dim) = tangent(column, row + 1:row + dim) + change(:, a)
-          end do
-          do other = 1, 2
-            do p = 1, nodes
-              row = dim*(faces(p, other) - 1)
-              tangent(row + 1:row + dim, column) = tangent(row + 1:row + dim, column) &
-                + (0.25_dp*area)*curvature(dim*(p - 1) + 1:dim*p, dim*(q - 1) + i)
-            end do
-          end do
+          tangent(:, column) = tangent(:, column) + of_column
+          tangent(column, :) = tangent(column, :) + change
         end do
       end do
     end do
