@@ -262,7 +262,10 @@ def body(data: Row) -> Iterator[str]:
     yield from table_of("type(real_item)", "reals", [real(row, data) for row in data["reals"]])
     yield ""
     yield from table_of("type(integer_item)", "integers", [integer(row, data) for row in data["integers"]])
-    yield from ("", "  !> Rows of the tables that a family has, in the order of PROPS and JPROPS, a column each; then zeros.")
+    yield from (
+        "",
+        "  !> Rows of the tables that a family has, in the order of PROPS and JPROPS, a column each; then zeros.",
+    )
     yield from (line for table in ("reals", "integers") for line in rows_of_families(table, data))
     yield from ("", "  ! numbers of variables")
     yield from (parameter(f"{name}_variables", len(table["items"])) for name, table in data["variables"].items())
@@ -293,7 +296,11 @@ def table_of(kind: str, name: str, rows: Sequence[tuple[str, str]]) -> Iterator[
 def rows_of_families(table: str, data: Row) -> Iterator[str]:
     """Lines of the array that has the rows of a table for each family."""
     columns = [
-        [number for number, row in enumerate(data[table], start=1) if family in families_in(row["elements"], data["sets"])]
+        [
+            number
+            for number, row in enumerate(data[table], start=1)
+            if family in families_in(row["elements"], data["sets"])
+        ]
         for family in data["families"]
     ]
     most, name = max(map(len, columns)), f"rows_of_{table}"

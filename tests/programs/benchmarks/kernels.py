@@ -1,13 +1,13 @@
 # SPDX-FileCopyrightText: The uel-harness authors
 # SPDX-License-Identifier: BSD-3-Clause
-"""Speed of one call of every element: `python tests/programs/benchmarks/kernels.py [--before FILE.so] [--only NAME]`.
+"""Time of one call of every element: `python tests/programs/benchmarks/kernels.py`.
 
-The measure is a plain quad of four nodes, K = sum w B^T D B and R = -K u, a user element of 30 lines that is compiled
-in the same run: times on different machines compare by their ratio to it. Every element is called by the driver's loop
-over a block of like elements, without the scatter of AMATRX. What is compared takes turns: the plain quad, calls for
-RHS and AMATRX, calls for RHS alone, and first calls, in which self-contained elements find their beta. States are
-elastic, as those of most elements of a model are. `--before` takes kernels.so of another commit, whose elements must
-have the same properties: its calls take turns with those of the installed one.
+The measure is a plain quad of four nodes, K = sum w B^T D B and R = -K u, a user element that is compiled in the same
+run: times on different machines compare by their ratio to it. Every element is called by the driver's loop over a block
+of like elements, without the scatter of AMATRX. What is compared takes turns: the plain quad, calls for RHS and AMATRX,
+calls for RHS alone, and first calls, in which self-contained elements find their beta. States are elastic, as those of
+most elements of a model are. `--before` takes kernels.so of another commit, whose elements must have the same
+properties: its calls take turns with those of the installed one. `--write` writes the table into fortran/speed.md.
 """
 
 from __future__ import annotations
@@ -28,8 +28,10 @@ from rich.table import Table
 from uel import usersub
 from uel.assembly import system_of
 from uel.deck import read_deck
+from uel.delamination import markdown
 from uel.elements import Call, ElementBlock, Flags, Request
 from uel.model.arrays import FloatArray
+from uel.solver.linear import measured
 from uel.solver.threads import one_blas_thread
 from uel.usersub.layout import element_layouts
 
@@ -39,6 +41,9 @@ from conftest import Element
 from reference_cells import unit_cell
 from solid_pairs import MEAN, MODES, OWNING, REDUCED, geometry
 
+PAGE = Path(__file__).parents[3] / "fortran" / "speed.md"
+BEGIN = "<!-- rows of tests/programs/benchmarks/kernels.py -->"
+REQUESTS = ("RHS and AMATRX", "RHS alone", "first call")
 COPIES = 400
 """Elements of a block: so many that a pass over them takes longer than its Python, and few enough for the caches."""
 SECONDS = 1.0
@@ -153,7 +158,9 @@ CELLS = {"CPS4": "quad", "C3D20": "hexahedron20", "C3D20R": "hexahedron20", "S4R
 SECTIONS = {"S4R": "SHELL SECTION", "COH2D4": "COHESIVE SECTION", "COH3D8": "COHESIVE SECTION"}
 
 
-def block_of_deck(library: usersub.Library, name: str, nodes: FloatArray, cards: str, folder: Path) -> tuple[ElementBlock, FloatArray]:
+def block_of_deck(
+    library: usersub.Library, name: str, nodes: FloatArray, cards: str, folder: Path
+) -> tuple[ElementBlock, FloatArray]:
     """Return elements of a deck, and displacements; `cards` are their sections and materials."""
     deck, count = folder / f"{name}.inp", len(nodes)
     lines = ["*NODE"]
@@ -263,39 +270,58 @@ def measure(case: Case, plain: Callable[[], object], libraries: list[usersub.Lib
     return 1e6 / COPIES * np.median(times, axis=0)
 
 
+def cells(times: FloatArray, *, beside: bool) -> list[str]:
+    """Return the cells of a row from the times of `measure`."""
+    plain, now, before = times[0], times[1:4], times[4:]
+    found = []
+    for k in (1, 2, 0):
+        found += [f"{before[k]:,.0f}"] if beside else []
+        found += [f"{now[k]:,.0f}", *([f"{now[k] / before[k]:.2f}"] if beside else []), f"{now[k] / plain:.1f}"]
+    return found
+
+
+def write(rows: list[list[str]], plain: str) -> None:
+    """Write the rows into the page."""
+    head = ["element", *(cell for name in REQUESTS for cell in (name, "x"))]
+    lines = [f"{measured.machine()}; {plain}:", "", *markdown.head(head), *map(markdown.line, rows)]
+    text = measured.replaced(PAGE.read_text(encoding="utf-8"), BEGIN, "\n".join(lines))
+    PAGE.write_text(text, encoding="utf-8")
+
+
 def main() -> int:
     """Print the table."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--before", type=Path, help="kernels.so of another commit, to compare with")
-    parser.add_argument("--only", help="rows whose names contain this text")
+    parser.add_argument("--only", default="", help="rows whose names contain this text")
+    parser.add_argument("--write", action="store_true", help=f"write the table into {PAGE.name}")
     options = parser.parse_args()
-    console, beside = Console(width=140), options.before is not None
+    beside = options.before is not None
+    if options.write and (beside or options.only):
+        parser.error("--write takes all rows, of the installed kernels alone")
     table = Table("element", title="ns per element; x: over the plain quad", title_justify="left")
-    for name in ("RHS and AMATRX", "RHS alone", "first call"):
+    for name in REQUESTS:
         for column in (*(["before"] if beside else []), name, *(["of before"] if beside else []), "x"):
             table.add_column(column, justify="right")
+    rows, of_plain = [], []
     with tempfile.TemporaryDirectory() as name, one_blas_thread():
         folder = Path(name)
         own, quads = plain_quads(folder)
         plain = loops(*quads, nlgeom=False)[1]
-        libraries = [usersub.load(file, job="kernels", output_dir=folder) for file in (None, options.before)[: 1 + beside]]
-        of_plain = []
+        files = [None, options.before] if beside else [None]
+        libraries = [usersub.load(file, job="kernels", output_dir=folder) for file in files]
         for case in cases():
-            if options.only and options.only not in case.title:
-                continue
-            times = measure(case, plain, libraries, folder)
-            of_plain.append(times[0])
-            now, *before = times[1:].reshape(-1, 3)
-            cells = []
-            for k in (1, 2, 0):
-                cells += [f"{before[0][k]:.0f}"] if beside else []
-                cells += [f"{now[k]:.0f}", *([f"{now[k] / before[0][k]:.2f}"] if beside else [])]
-                cells += [f"{now[k] / times[0]:.1f}"]
-            table.add_row(case.title, *cells)
+            if options.only in case.title:
+                times = measure(case, plain, libraries, folder)
+                of_plain.append(times[0])
+                rows.append([case.title, *cells(times, beside=beside)])
+                table.add_row(*rows[-1])
         for library in (own, *libraries):
             library.close()
+    console, title = Console(width=140), f"the plain quad takes {np.median(of_plain):.0f} ns"
     console.print(table)
-    console.print(f"plain quad: {np.median(of_plain):.0f} ns")
+    console.print(title)
+    if options.write:
+        write(rows, title)
     return 0
 
 
