@@ -5,11 +5,12 @@ module core_procedures
   use, intrinsic :: iso_c_binding, only: c_double, c_int
   use core_root, only: advance, root_search, search_between, searching
   use core_serendipity, only: serendipity_functions
-  use core_small_matrix, only: determinant, invert
+  use core_small_matrix, only: add_combination, add_product, determinant, invert
   use core_symmetric, only: eigenvalues, invert_definite, lower_factor
   implicit none(type, external)
   private
   public :: c_cube_root, c_serendipity, c_determinant, c_invert, c_eigenvalues, c_invert_definite, c_lower_factor
+  public :: c_add_product, c_add_combination
 
 contains
 
@@ -37,6 +38,22 @@ contains
 
     call serendipity_functions(dim, nodes, places, parent, n, dn)
   end subroutine c_serendipity
+
+  subroutine c_add_product(n, m, terms, a, b, matrix) bind(c)
+    integer(c_int), value :: n, m, terms
+    real(c_double), intent(in) :: a(n, terms), b(m, terms)
+    real(c_double), intent(inout) :: matrix(n, m)
+
+    call add_product(n, m, terms, a, b, matrix)
+  end subroutine c_add_product
+
+  subroutine c_add_combination(n, terms, a, x, vector) bind(c)
+    integer(c_int), value :: n, terms
+    real(c_double), intent(in) :: a(n, terms), x(terms)
+    real(c_double), intent(inout) :: vector(n)
+
+    call add_combination(n, terms, a, x, vector)
+  end subroutine c_add_combination
 
   subroutine c_determinant(a, value) bind(c)
     real(c_double), intent(in) :: a(3, 3)

@@ -50,6 +50,23 @@ def test_a_function_that_is_nan_has_no_root(core):
     assert steps == 1
 
 
+@pytest.mark.parametrize("n", [1, 5, 8, 12, 16, 24, 37, 48, 60])
+@pytest.mark.parametrize("terms", [0, 1, 2, 3, 4, 6, 9, 12])
+def test_products_are_added_to_a_matrix(core, n, terms):
+    m = 7
+    a, b, matrix = (np.asfortranarray(RNG.normal(size=size)) for size in ((n, terms), (m, terms), (n, m)))
+    expected = matrix + a @ b.T
+    core("add_product", n, m, terms, a, b, matrix)
+    np.testing.assert_allclose(matrix, expected, rtol=0, atol=1e-14 * (1 + terms))
+
+
+def test_columns_are_added_to_a_vector(core):
+    a, x, vector = np.asfortranarray(RNG.normal(size=(5, 3))), RNG.normal(size=3), RNG.normal(size=5)
+    expected = vector + a @ x
+    core("add_combination", 5, 3, a, x, vector)
+    np.testing.assert_allclose(vector, expected, rtol=0, atol=1e-14)
+
+
 def test_determinant(core):
     a, value = np.asfortranarray(RNG.normal(size=(3, 3))), np.zeros(1)
     core("determinant", a, value)

@@ -366,3 +366,30 @@ def test_bad_geometry_and_properties(element):
         item = element(jtype, coordinates, label=42, **values)
         with pytest.raises(KernelError, match=message):
             item.evaluate(np.zeros(item.n))
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_plies_need_a_positive_definite_compliance(element, seed):
+    # at the bound: Poisson's ratios in proportion to those at which the least eigenvalue of the compliance is zero
+    rng = np.random.default_rng(seed)
+    moduli = np.exp(rng.uniform(np.log(5e3), np.log(2e5), 3))
+    coupling = np.zeros((3, 3))
+    coupling[np.triu_indices(3, 1)] = rng.uniform(-1.0, 1.0, 3)
+    # with rows and columns scaled to a unit diagonal it is I - coupling - its transpose
+    coupling /= np.linalg.eigvalsh(coupling + coupling.T).max()
+    for share, good in ((0.999, True), (1.001, False)):
+        nu = share * coupling * np.sqrt(moduli[:, None] / moduli)
+        names = {
+            "E1": moduli[0],
+            "E2": moduli[1],
+            "E3": moduli[2],
+            "NU12": nu[0, 1],
+            "NU13": nu[0, 2],
+            "NU23": nu[1, 2],
+        }
+        item = element(8, nodes_of(8, "flat"), **{f"{name} TOP": value for name, value in names.items()})
+        if good:
+            item.evaluate(np.zeros(item.n))
+        else:
+            with pytest.raises(KernelError, match=r"not positive definite; -.*E-.* must be positive"):
+                item.evaluate(np.zeros(item.n))
