@@ -165,10 +165,9 @@ contains
     real(dp), intent(out) :: matrices(:, :, :)
     real(dp), intent(inout) :: at_rest(:, :)
     type(status_type), intent(out) :: status
-    real(dp) :: of_strain(3*(dim - 1), dim), by_strain(dim, 3*(dim - 1)), heating
+    real(dp) :: of_strain(dim, 3*(dim - 1)), heating
     real(dp) :: samples(dim, max(size(places), most_samples)), shares(max(size(places), most_samples), size(places))
-    real(dp) :: b(dim*solid%nodes, 3*(dim - 1), max(size(places), most_samples)), strain(dim*solid%nodes, 3*(dim - 1))
-    real(dp) :: traction(dim*solid%nodes, dim)
+    real(dp) :: b(dim*solid%nodes, 3*(dim - 1), max(size(places), most_samples)), tractions(dim*solid%nodes, dim, size(places))
     integer :: i, j, k, n
     logical :: expands
 
@@ -176,24 +175,21 @@ contains
     call sample(sampling, dim, solid, face, places, samples, shares, n)
     call strains_at(dim, solid, coordinates, samples(:, 1:n), b(:, :, 1:n), status)
     if (status%code /= ok) return
+    tractions = 0.0_dp
     do k = 1, size(places)
-      strain = 0.0_dp
+      of_strain = transpose(solid_traction(dim, solid, places(k)%frame))
+      do j = 1, dim
+        of_strain(j, :) = weights(mode_of(j))*of_strain(j, :)
+      end do
       heating = 0.0_dp
       do i = 1, n
         if (.not. abs(shares(i, k)) > 0.0_dp) cycle
-        strain = strain + shares(i, k)*b(:, :, i)
+        call add_product(size(b, 1), dim, size(b, 2), b(:, :, i), shares(i, k)*of_strain, tractions(:, :, k))
         if (expands) heating = heating + shares(i, k)*heating_at(dim, solid, samples(:, i))
       end do
-      of_strain = solid_traction(dim, solid, places(k)%frame)
-      do j = 1, dim
-        of_strain(:, j) = weights(mode_of(j))*of_strain(:, j)
-      end do
-      by_strain = transpose(of_strain)
-      traction = 0.0_dp
-      call add_product(size(strain, 1), dim, size(strain, 2), strain, by_strain, traction)
-      matrices(:, :, k) = traction
-      if (expands) at_rest(:, k) = at_rest(:, k) - matmul(heating*solid%expansion(1:size(of_strain, 1)), of_strain)
+      if (expands) at_rest(:, k) = at_rest(:, k) - matmul(of_strain, heating*solid%expansion(1:size(b, 2)))
     end do
+    matrices = tractions
   end subroutine side_operators
 
   !> First node of the element on a side.
