@@ -39,7 +39,8 @@ contains
 
     if (.not. depends_on_rate(law)) return
     pair = resultant(separation)
-    law%rate%start = norm2([pair(1), max(0.0_dp, pair(2))])
+    ! as in `damage_envelope`: to the last digit, where the separation has not changed
+    law%rate%start = sqrt(pair(1)**2 + max(0.0_dp, pair(2))**2)
     law%rate%duration = duration
   end subroutine begin_rate
 

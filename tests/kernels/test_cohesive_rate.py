@@ -286,30 +286,31 @@ def test_first_order_in_the_increment(make, variant):
     assert order == pytest.approx([1.0, 1.0], abs=0.1)
 
 
+@pytest.mark.parametrize("shear", SHARES)
 @pytest.mark.parametrize("count", [60, 600])
 @pytest.mark.parametrize("variant", [variant for variant in VARIANTS if variant != "U4 paper"])
-def test_block_in_series(make, variant, count):
+def test_block_in_series(make, variant, count, shear):
     """A spring pulls the interface at a constant speed, in increments that soften it by more than the spring holds.
 
     The line of the law, of slope k, and the spring c have a solution of one rate, u'/(1 - k/c). Newton's method begins
     each increment where the last one ended, and finds it in a few iterations; the load does not oscillate.
     """
-    item, speed, per_area = make(variant), 0.5, 26458.0
+    item, speed, per_area = make(variant, shear), 0.5, 26458.0
     # of the interface with the springs beta
     if variant in CONSISTENT:
         per_area = 1 / (1 / per_area + 1 / BETA)
 
     def excess(rate):
-        return rate * (1 - line_at(rate, 0.0, variant)[1] / per_area) - speed
+        return rate * (1 - line_at(rate, shear, variant)[1] / per_area) - speed
 
     rate = brentq(excess, speed, 2 * speed, xtol=1e-15, rtol=1e-14)
-    top, slope = line_at(rate, 0.0, variant)
-    probe = make(variant).advance(1e-6, 1e9)
+    top, slope = line_at(rate, shear, variant)
+    probe = make(variant, shear).advance(1e-6, 1e9)
     area = probe / (1e-6 * {True: BETA, False: ALPHA}["rigid" in variant])
     if variant in CONSISTENT and "rigid" not in variant:
         area = probe / (1e-6 * ALPHA * BETA / (ALPHA + BETA))
     spring = 26458.0 * area
-    gap, last, loads, counts = 0.0, 0.012, [], []
+    gap, last, loads, counts = 0.0, 0.6 * top / slope, [], []
     for pulled in np.linspace(0, last, count + 1)[1:]:
         for iteration in range(1, 30):
             rhs, matrix = item.item.evaluate(gap * item.unit, dtime=last / count / speed)
