@@ -213,9 +213,9 @@ contains
 
   !> Energy that sliding and opening dissipate while the damage D grows.
   !>
-  !> The separation follows a path between the ends of the increment. It leaves an intact point in the direction of its traction, and
-  !> bends towards the end: what is across that direction grows with the square of what is along it. The further the separation has
-  !> come before, the straighter is the path. Between two points of the path the energy is that of the direction of the middle.
+  !> The separation follows a path between the ends of the increment. It leaves an intact point in the direction of its traction,
+  !> and bends towards the end: what is across that direction grows with the square of what is along it. The further the separation
+  !> has come before, the straighter is the path. Between two points of the path the energy is that of the direction of the middle.
   pure function work_of_damage(law, before, after, traction, old, new) result(work)
     type(law_parameters), intent(in) :: law
     real(dp), intent(in) :: before(2), after(2)   !< separations at the ends of the increment
