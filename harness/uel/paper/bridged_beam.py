@@ -3,7 +3,8 @@
 """Double cantilever beam with fibre bridging under cycles: the published example of CompDam (N, mm, MPa).
 
 NASA's CompDam (nasa/CompDam_DGD) shows its fatigue law on a double cantilever beam in two laws side by side, a tall
-narrow one and the tail of the bridging fibres, both with CF20. The beam is opened, and held under cycles.
+narrow one and the tail of the bridging fibres, both with CF20. The beam is opened, and held under cycles. Its arms are
+six continuum shells each; `bridged_shells` has them, for the load at the end of the opening.
 """
 
 from __future__ import annotations
@@ -25,6 +26,7 @@ from uel.delamination.keywords import (
     wrapped,
 )
 from uel.delamination.mesh import TwoArmMesh, crack_columns, two_arms
+from uel.delamination.plates import two_plates
 from uel.delamination.steps import Output
 
 HEIGHT, CRACK, LENGTH = 2.25, 50.8, 100.0
@@ -83,3 +85,29 @@ def bridged_beam(size: float = SIZE, rows: int = ROWS, quads: str = "CPE4I", *, 
         lines += [keyword("STEP", INC=limit, UNSYMM="YES", **options), title, "*STATIC", *table([static])]
         lines += [*loads, *output.lines(), *(f"*ENERGY OUTPUT, ELSET={name}\nALLPD" for name in LAWS), "*END STEP"]
     return text(lines)
+
+
+def bridged_shells(shells: int = 6, across: int = 2) -> str:
+    """Write the deck of the source's arms: SC8R, so many in an arm and over the width, opened with NLGEOM."""
+    # the beam of the source ends 3 arms beyond the fine mesh
+    x = crack_columns(
+        CRACK + REFINED + 3.0 * HEIGHT, (CRACK - 0.5, CRACK + REFINED), SIZE, ratio=1.2, largest=(1.0, 1.0)
+    )
+    grid = two_plates(x, np.linspace(0.0, 1.0, across + 1), np.linspace(0.0, HEIGHT, shells + 1), CRACK)
+    labels, points = grid.nodes()
+    arms = np.concatenate([grid.bricks(plate, layer) for plate in (0, 1) for layer in range(shells)])
+    lines = ["*HEADING", "Double cantilever beam with fibre bridging in continuum shells, after CompDam's example"]
+    lines += [*node_block(labels, points), *element_block("SC8R", "ARMS", arms, 1), *user_element(7)]
+    faces = grid.interface("U7")
+    for k, (name, law) in enumerate(LAWS.items()):
+        lines += element_block("U7", name, faces, 1 + len(arms) + k * len(faces))
+        lines += uel_property(7, name, {"LAW": 2, **law})
+    lines += ["*SHELL SECTION, ELSET=ARMS, MATERIAL=PLY, ORIENTATION=ALONG, STACK DIRECTION=3"]
+    lines += [f"{number(HEIGHT / shells)}, 5", "*ORIENTATION, NAME=ALONG", "1., 0., 0., 0., 1., 0.", "3, 0."]
+    lines += ["*MATERIAL, NAME=PLY", "*ELASTIC, TYPE=ENGINEERING CONSTANTS", *wrapped([*MODULI, *RATIOS, *SHEAR])]
+    for name, face in (("TOP", grid.labels[1][-1]), ("BOTTOM", grid.labels[0][0])):
+        lines += node_set(name, face[:, 0])
+    opening = number(0.5 * OPENING)
+    lines += ["*STEP, INC=100, UNSYMM=YES, NLGEOM=YES", "*STATIC", "0.1, 1., 1e-6, 0.1", "*BOUNDARY"]
+    lines += ["TOP, 1, 2", "BOTTOM, 1, 2", f"TOP, 3, 3, {opening}", f"BOTTOM, 3, 3, -{opening}"]
+    return text([*lines, "*OUTPUT, HISTORY", "*NODE OUTPUT, NSET=TOP", "RF3, U3", "*END STEP"])
