@@ -276,11 +276,14 @@ def test_an_initial_crack_does_not_fail(kind: str, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("angle", [30.0, 90.0])
 def test_element_takes_the_modulus_across(angle: float, tmp_path: Path) -> None:
-    """Of axis 1 at 90 degrees less the angle from the normal; no contraction."""
+    """Of axis 1 at 90 degrees less the angle from the normal; no contraction.
+
+    It fails in its first increment: in shorter ones the shear of the ply before onset has a part, 0.3 % of the energy.
+    """
     c, s = math.sin(math.radians(angle)), math.cos(math.radians(angle))
     across = 1.0 / (c**4 / E1 + s**4 / E3 + c**2 * s**2 / 500.0)
     angles = {"ANGLE BOTTOM": angle, "ANGLE TOP": angle}
-    (warning,) = pulled(tmp_path, "U4", 0.5, 1.0, axes=axes_at(angle), **angles).warnings
+    (warning,) = pulled(tmp_path, "U4", 0.5, 1.0, axes=axes_at(angle), first=0.5, **angles).warnings
     assert told(warning, "U4")[2] == pytest.approx(0.5 * across * TOUGHNESS / STRENGTH**2, rel=1e-5)
 
 

@@ -28,6 +28,7 @@ from rewriting import (
     ONE,
     POWER,
     SAME,
+    SPEED,
     STIFFNESS,
     STRESS,
     TIME,
@@ -52,7 +53,7 @@ THREADS = (1, 2, 4)
 
 _DIMENSIONS: Mapping[str, Dimension] = {
     **{"length": LENGTH, "stress/length": STIFFNESS, "stress": STRESS, "energy/area": TOUGHNESS, "time": TIME},
-    **{"1": ONE, "": ONE, "temperature": ONE},
+    **{"1": ONE, "": ONE, "temperature": ONE, "length/time": SPEED},
 }
 """By the unit that a property has in fortran/properties.toml."""
 _U2 = element_layouts()[2]
