@@ -72,7 +72,8 @@ contains
     else
       old = damage_at_secant(law, 1.0_dp - history%damage, law%flexibility)
       new = damage_at_secant(law, 1.0_dp - state%damage, law%flexibility)
-      call follow_envelope(law, before, after, (1.0_dp - history%damage)*stiffness_of(law)*before, old, new, work, spent)
+      call follow_envelope(law, law%viscosity > 0.0_dp, before, after, (1.0_dp - history%damage)*stiffness_of(law)*before, old, &
+        new, work, spent)
     end if
     if (law%viscosity > 0.0_dp .or. law%cycles%count > 0.0_dp) then
       growth = 0.5_dp*stiffness_of(law)*growth
@@ -114,14 +115,16 @@ contains
       dissipated = dissipated + max(0.0_dp, [sum(of_component(shears)), of_component(2)])
       spent = max(spent, share_spent(law, after, state%damage))
     else
-      call follow_envelope(law, before, after, resultant(opening_part(traction)), history%damage, state%damage, work, spent)
+      call follow_envelope(law, .false., before, after, resultant(opening_part(traction)), history%damage, state%damage, work, &
+        spent)
       dissipated = dissipated + work
     end if
   end subroutine dissipate_consistently
 
   !> Energy that sliding and opening dissipate while the damage D grows on the envelope, and the share of the fracture energy.
-  pure subroutine follow_envelope(law, before, after, traction, old, new, work, spent)
+  pure subroutine follow_envelope(law, lags, before, after, traction, old, new, work, spent)
     type(law_parameters), intent(in) :: law
+    logical, intent(in) :: lags                   !< the damage is below that of the separation, at any rate
     real(dp), intent(in) :: before(2), after(2)   !< separations at the ends of the increment
     real(dp), intent(in) :: traction(2)           !< at its start
     real(dp), intent(in) :: old, new              !< D
@@ -134,7 +137,11 @@ contains
       present = law
       call suit_rate(present, norm2(after))
       last = damage_by(present, law, new)
-      work = work_at_rate(law, present, before, after, traction, damage_by(present, law, old), last)
+      if (lags) then
+        work = work_of_damage(present, before, after, traction, damage_by(present, law, old), last)
+      else
+        work = work_at_rate(law, present, before, after, traction, damage_by(present, law, old), last)
+      end if
       spent = max(spent, share_spent(present, after, last))
     else
       work = work_of_damage(law, before, after, traction, old, new)

@@ -98,7 +98,7 @@ class Opened:
         return self.force
 
     def size(self, letter):
-        """Of the traction T or the separation W, at the first point."""
+        """Pair of the traction T or the separation W, at the first point."""
         state = self.item.state
         return float(np.linalg.norm([state[letter + name][0] for name in "NST" if letter + name in state]))
 
@@ -161,7 +161,7 @@ def test_traction_is_that_of_the_rate_of_the_increment(make, variant, shear):
 @pytest.mark.parametrize("law", LAWS)
 @pytest.mark.parametrize("variant", JUMP)
 def test_law_at_a_constant_rate(make, variant, law, speed):
-    """That of a deck with the values at this rate, history and energies included; to failure in mixed mode."""
+    """A deck with the values at this rate gives the same, history and energies included; to failure in mixed mode."""
     strength, toughness = factors(speed)
     values = {**VALUES, **(BRIDGES if law == "bridging" else {})}
     scaled = {name: value * (strength if name[0] in "ST" else toughness) for name, value in values.items()}
@@ -349,7 +349,7 @@ def test_fracture_energy_of_a_constant_rate(make, variant, shear, count):
 @pytest.mark.parametrize("slower", [False, True])
 @pytest.mark.parametrize("variant", VARIANTS)
 def test_energies_are_the_work(make, variant, law, slower):
-    """Of the square of the increment, while the rate rises from zero or falls to zero."""
+    """The error is of second order in the increment, while the rate rises from zero or falls to zero."""
     last, errors = 0.014, []
     for count in (50, 100, 200):
         item = make(variant, 0.4, **LAWS[law])
@@ -476,3 +476,22 @@ def test_messages(make, variant, values, message):
     item = make(variant, **{"ETA": 0.0} | values)
     with pytest.raises(KernelError, match=message):
         item.advance(0.0, 1.0)
+
+
+@pytest.mark.parametrize("shear", SHARES)
+@pytest.mark.parametrize("variant", VARIANTS)
+@pytest.mark.parametrize("slowly", [False, True])
+def test_viscosity_keeps_its_part_of_the_energy(make, variant, shear, slowly):
+    """Damage that lags is not one whose rate has fallen: it dissipates what the law does, the overstress the rest.
+
+    With exponents of next to nothing, at a constant speed and where it falls, as without a rate.
+    """
+    found = []
+    for rates in ({"STRENGTHRATE": 1e-9, "TOUGHNESSRATE": 1e-9}, dict.fromkeys(RATES, 0.0)):
+        item = make(variant, shear, VISCOSITY=0.01, **rates)
+        for count, share in enumerate(np.linspace(0, 1, 101)[1:]):
+            item.advance(0.06 * share, 10.0 / 100 if slowly and count > 50 else 1.0 / 100)
+        state = item.item.state
+        assert state["DISSV"][0] > 0
+        found.append([item.dissipated, state["DISSV"][0], state["DAMAGE"][0]])
+    np.testing.assert_allclose(found[0], found[1], rtol=1e-6)
