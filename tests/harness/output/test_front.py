@@ -163,7 +163,9 @@ class Shaped(Disc):
 
 
 @pytest.mark.parametrize("tilt", [0.0, 0.7])
-@pytest.mark.parametrize("kinds", [("triangle",), ("triangle6",), ("quad8",), ("quad", "triangle")])
+@pytest.mark.parametrize(
+    "kinds", [("triangle",), ("triangle6",), ("quad8",), ("quad", "triangle"), ("quad", "quad8"), ("triangle6", "quad")]
+)
 def test_a_round_front_on_faces_of_other_shapes(kinds: tuple[str, ...], tilt: float) -> None:
     """The same tolerances as on squares with four nodes."""
     disc = Shaped(*kinds, tilt=tilt)
@@ -176,6 +178,52 @@ def test_a_round_front_on_faces_of_other_shapes(kinds: tuple[str, ...], tilt: fl
     inner = slice(2, -2)
     assert np.abs(front.tractions[inner]) == pytest.approx(np.tile(0.5 * STRENGTH, (len(radius) - 4, 1)), rel=0.1)
     assert front.releases[inner] == pytest.approx(np.tile(G, (len(radius) - 4, 1)), rel=0.08)
+
+
+class Twice(Disc):
+    """Two instances of the disc, far apart, of which the second is bonded: their elements have the same labels."""
+
+    def mesh(self, increment: int = -1, step: int | None = None) -> meshio.Mesh:
+        one = super().mesh(increment, step)
+        nodes = np.concatenate([one.points, one.points + np.array([100.0, 0.0, 0.0])])
+        cells = [("quad", self.cells), ("quad", self.cells + len(one.points))]
+        return meshio.Mesh(nodes, cells, cell_data={name: 2 * values for name, values in one.cell_data.items()})
+
+    def interfaces(self) -> list[dict[str, np.ndarray]]:
+        (one,) = super().interfaces()
+        other = one | {"X": one["X"] + 100.0, "DAMAGE": np.zeros_like(one["X"])}
+        return [{name: np.concatenate([values, other[name]]) for name, values in one.items()}]
+
+
+def test_instances_with_the_same_labels() -> None:
+    (expected,), (found,) = fronts(Disc()), fronts(Twice())
+    np.testing.assert_array_equal(found.coordinates, expected.coordinates)
+    np.testing.assert_array_equal(found.releases, expected.releases)
+
+
+@pytest.mark.parametrize("which", [0, 100, -1])
+def test_an_element_that_the_profile_lacks(which: int) -> None:
+    """A run that was killed may have written a part of it."""
+    disc = Disc()
+    (profile,) = disc.interfaces()
+    label = np.sort(disc.labels)[which]
+    there = profile["element"] != label
+    disc.interfaces = lambda: [{name: values[there] for name, values in profile.items()}]
+    with pytest.raises(UelError, match=f"increment 3: no interface profile of element {label}$"):
+        fronts(disc)
+
+
+def test_damage_that_is_not_known() -> None:
+    """At one point SPENT is not a number: DAMAGE takes its place; without that there is no front."""
+    disc = Spent()
+    (profile,) = disc.interfaces()
+    for name in ("SPENT", "DAMAGE"):
+        profile[name][7] = np.nan
+        disc.interfaces = lambda: [profile]
+        if name == "SPENT":
+            assert len(fronts(disc)) == 1
+    with pytest.raises(UelError, match="increment 3: DAMAGE of some points is not known"):
+        fronts(disc)
 
 
 @pytest.mark.parametrize(

@@ -5,12 +5,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Final
 
 import meshio
 import numpy as np
 
+from uel.errors import UelError
 from uel.model.arrays import FloatArray, IntArray
 from uel.model.face_directions import face_directions
 from uel.model.face_shapes import natural_gradients, shape_functions
@@ -25,6 +26,8 @@ _NATURAL: Final = {
     4: np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]]),
 }
 """Natural coordinates of the corners."""
+OCCURRENCES: Final = 2**20
+"""Most elements of one label."""
 _STEPS: Final = 8
 """Iterations of Newton's method for natural coordinates; two suffice in parallelograms."""
 
@@ -35,7 +38,8 @@ class Faces:
 
     corners   3 or 4
     nodes     (m, k) nodes, the corners first, then those between them
-    elements  (m,) labels
+    elements  (m,) keys of the elements: OCCURRENCES times the label, and how many before have the same one, as those of
+              instances do
     """
 
     corners: int
@@ -76,6 +80,9 @@ class InterfaceSurface:
     """
 
     def __init__(self, points: FloatArray, faces: Sequence[Faces]) -> None:
+        if len({each.nodes.shape[1] == each.corners for each in faces}) > 1:
+            # nodes between corners would lie on edges without them
+            faces = [replace(each, nodes=each.nodes[:, : each.corners]) for each in faces]
         self._used = np.unique(np.concatenate([each.nodes.ravel() for each in faces]))
         self._points = points[self._used]
         nodes, triangles, sizes, self._faces = [self._points], [], [], []
@@ -95,37 +102,36 @@ class InterfaceSurface:
             start += len(cells)
         self.size = float(np.median(np.concatenate(sizes)))
         self.triangles = TriangulatedSurface(np.concatenate(nodes), np.concatenate(triangles))
-        self._extrapolations: dict[tuple[int, int], tuple[FloatArray, FloatArray]] = {}
+        self._extrapolations: dict[tuple[int, bytes], tuple[FloatArray, FloatArray]] = {}
 
     def fields(self, profile: Mapping[str, FloatArray]) -> Fields:
         """Return the fields at the nodes from the values at the integration points of an interface profile.
 
         Values at a node are means over its faces. On a face they are constant, linear or bilinear, as the number of its
         points permits.
+
+        Raises
+        ------
+        UelError
+            The profile lacks an element, or the damage of a point.
         """
-        order = np.lexsort((profile["point"], profile["element"]))
-        labels = profile["element"][order].astype(np.int64)
-        first = np.searchsorted(labels, np.concatenate([each.elements for each in self._faces]))
-        counts = np.searchsorted(labels, np.concatenate([each.elements for each in self._faces]), side="right") - first
+        keys, order = _in_order(profile)
+        wanted = np.concatenate([each.elements for each in self._faces])
+        first = np.searchsorted(keys, wanted)
+        counts = np.searchsorted(keys, wanted, side="right") - first
+        if not counts.all():
+            label = int(wanted[np.argmin(counts)]) // OCCURRENCES
+            raise UelError(f"increment {profile['increment'][0]:.0f}: no interface profile of element {label}")
+        rows = order[np.isin(keys, wanted)]
 
         def known(*names: str) -> bool:
-            return all(name in profile and bool(np.isfinite(profile[name][order[first]]).all()) for name in names)
+            return all(name in profile and bool(np.isfinite(profile[name][rows]).all()) for name in names)
 
         damage, separation = "SPENT" if known("SPENT") else "DAMAGE", "W" if known("WN") else "SEP"
-        names: tuple[str, ...] = (
-            "X",
-            "Y",
-            "Z",
-            damage,
-            "TN",
-            f"{separation}N",
-            "TS",
-            "TT",
-            f"{separation}S",
-            f"{separation}T",
-        )
-        if known(*DIRECTIONS):
-            names += DIRECTIONS
+        if not known(damage):
+            raise UelError(f"increment {profile['increment'][0]:.0f}: {damage} of some points is not known")
+        names: tuple[str, ...] = "X", "Y", "Z", damage, "TN", f"{separation}N", "TS", "TT", f"{separation}S"
+        names += (f"{separation}T", *(DIRECTIONS if known(*DIRECTIONS) else ()))
         sums, elements = np.zeros((len(self._points), 9)), np.zeros(len(self._points))
         middles = []
         start = 0
@@ -135,16 +141,16 @@ class InterfaceSurface:
             middle = np.zeros((len(each.nodes), 9))
             for count in np.unique(counts[mine]).tolist():
                 some = np.flatnonzero(counts[mine] == count)
-                rows = order[first[mine][some][:, None] + np.arange(count)]
-                values = np.stack([profile[name][rows] for name in names], axis=-1)
-                nodal = self._to_nodes((number, count), each, some, values)
+                points = order[first[mine][some][:, None] + np.arange(count)]
+                values = np.stack([profile[name][points] for name in names], axis=-1)
+                nodal = self._to_nodes((number, some.tobytes()), each, some, values)
                 np.add.at(sums, each.nodes[some], nodal[:, :-1])
                 middle[some] = nodal[:, -1]
             np.add.at(elements, each.nodes, 1.0)
             middles.append(middle)
         return Fields(np.concatenate([sums / elements[:, None], *middles]))
 
-    def _to_nodes(self, key: tuple[int, int], each: Faces, some: IntArray, values: FloatArray) -> FloatArray:
+    def _to_nodes(self, key: tuple[int, bytes], each: Faces, some: IntArray, values: FloatArray) -> FloatArray:
         """Return values (m, k + 1, 9) at the nodes and the middle of some faces, from those at their points.
 
         Shears, which have directions of their own at each point, become vectors.
@@ -152,7 +158,7 @@ class InterfaceSurface:
         Parameters
         ----------
         key
-            The faces and their number of points: what depends on the mesh alone is kept.
+            Faces, and which of them: what depends on the mesh alone is kept.
         values
             (m, p, 10 or 13) coordinates, damage, normals, shears, and directions that the elements were given.
         """
@@ -176,13 +182,17 @@ class InterfaceSurface:
 
 def interface_surfaces(mesh: meshio.Mesh) -> list[InterfaceSurface]:
     """Return the surfaces of interface elements with a damage in space, in the order of their first elements."""
-    faces = [
-        Faces(CORNERS[block.type], block.data, labels)
+    own = [
+        (block, labels)
         for block, damage, labels in zip(
             mesh.cells, mesh.cell_data.get("DAMAGE", []), mesh.cell_data["ELEMENT"], strict=False
         )
         if block.type in CORNERS and np.isfinite(damage).all()
     ]
+    faces, before = [], np.zeros(0, dtype=np.int64)
+    for block, labels in own:
+        before = np.concatenate([before, np.asarray(labels, dtype=np.int64)])
+        faces.append(Faces(CORNERS[block.type], block.data, _keys(before)[-len(labels) :]))
     if not faces:
         return []
     width = max(each.nodes.shape[1] for each in faces)
@@ -193,10 +203,33 @@ def interface_surfaces(mesh: meshio.Mesh) -> list[InterfaceSurface]:
     ends = np.cumsum([len(each.nodes) for each in faces])[:-1]
     surfaces = []
     for part in parts(wide, len(mesh.points)):
-        own = zip(faces, np.split(part, ends), strict=True)
-        some = [Faces(each.corners, each.nodes[mask], each.elements[mask]) for each, mask in own if mask.any()]
+        masks = zip(faces, np.split(part, ends), strict=True)
+        some = [Faces(each.corners, each.nodes[mask], each.elements[mask]) for each, mask in masks if mask.any()]
         surfaces.append(InterfaceSurface(mesh.points, some))
     return surfaces
+
+
+def _keys(labels: IntArray) -> IntArray:
+    """Return keys (m,) of labels: the label and how many of the same one come before."""
+    order = np.argsort(labels, kind="stable")
+    starts = np.flatnonzero(np.diff(labels[order], prepend=labels[order[:1]] - 1))
+    keys = np.empty(len(labels), dtype=np.int64)
+    runs = np.diff(np.append(starts, len(labels)))
+    keys[order] = labels[order] * OCCURRENCES + np.arange(len(labels)) - np.repeat(starts, runs)
+    return keys
+
+
+def _in_order(profile: Mapping[str, FloatArray]) -> tuple[IntArray, IntArray]:
+    """Return the keys of elements of the rows of a profile, ascending, and the rows in that order, by points.
+
+    The points of an element follow each other; elements of one label are in the order of the mesh.
+    """
+    labels, points = profile["element"].astype(np.int64), profile["point"].astype(np.int64)
+    # a row begins an element where the label changes, or the points begin again
+    begins = np.flatnonzero((np.diff(labels, prepend=labels[:1] - 1) != 0) | (np.diff(points, prepend=0) <= 0))
+    keys = np.repeat(_keys(labels[begins]), np.diff(np.append(begins, len(labels))))
+    order = np.lexsort((points, keys))
+    return keys[order], order
 
 
 def _middles(nodes: FloatArray, corners: int) -> FloatArray:
