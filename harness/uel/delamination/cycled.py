@@ -15,8 +15,10 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
+import numpy as np
+
 from uel.delamination.blocks import Specimen
-from uel.delamination.flexure import flexure_head
+from uel.delamination.flexure import SPAN, flexure_head, lever
 from uel.delamination.keywords import keyword, node_set, number, table, text
 from uel.delamination.plates import Laminate, mesh_blocks, property_blocks
 from uel.delamination.specimens import deck_head
@@ -86,6 +88,22 @@ def flexure_deck(title: str, specimen: Specimen, force: float, cycles: Cycles) -
     """Write the end-notched flexure under a force (N) at mid-span."""
     lines = flexure_head(title, "loaded at mid-span", specimen)
     return text([*lines, *_steps(["*CLOAD", f"MIDSPAN, 2, {number(-force)}"], ["MIDSPAN"], cycles)])
+
+
+def bending_deck(title: str, specimen: Specimen, length: float, force: float, cycles: Cycles) -> str:
+    """Write mixed-mode bending: a lever of a length (mm) from mid-span loads the flexure specimen by a force (N)."""
+    mesh = specimen.mesh
+    middle = int(np.argmin(np.abs(mesh.x - 0.5 * SPAN)))
+    below, above = mesh.rows
+    node = int(mesh.top_line[-1]) + 1
+    end = int(mesh.edge(0)[below + 1 + above // 2])
+    lines = deck_head(
+        title, ["simply supported; a rigid lever pulls the upper arm up and presses on mid-span"], specimen
+    )
+    lines += lever(node, (length, float(mesh.upper[-1])), int(mesh.top_line[middle]), end, 0.5 * SPAN)
+    lines += [*node_set("LEVER", np.array([node])), *node_set("SUPPORT_LEFT", mesh.line(1)[:1])]
+    lines += [*node_set("SUPPORT_RIGHT", mesh.line(1)[-1:]), "*BOUNDARY", "SUPPORT_LEFT, 2, 2", "SUPPORT_RIGHT, 1, 2"]
+    return text([*lines, *_steps(["*CLOAD", f"LEVER, 2, {number(-force)}"], ["LEVER"], cycles)])
 
 
 def solid_deck(

@@ -80,3 +80,23 @@ def frmm_deck(title: str, specimen: Specimen, opening: float, increments: Increm
         built_in=specimen.interface.built_in,
     )
     return text(lines)
+
+
+def lever(node: int, loads: tuple[float, float], roller: int, end: int, half: float) -> list[str]:
+    """Write the rigid lever of mixed-mode bending, with small rotations: its node and its equation.
+
+    Parameters
+    ----------
+    node
+        Label of its end, which carries the load.
+    loads
+        Distance of the load from mid-span, and its height (mm).
+    roller, end
+        Nodes of the upper arm at mid-span, on which the lever rolls, and at its end, which the lever holds.
+    half
+        Half of the span (mm).
+    """
+    length, height = loads
+    ratio = half / (half + length)
+    lines = ["*NODE", *table([[node, half + length, height]])]
+    return [*lines, "*EQUATION", "3", *table([(roller, 2, 1.0, node, 2, -ratio, end, 2, ratio - 1.0)])]

@@ -10,7 +10,15 @@ from dataclasses import replace
 import numpy as np
 
 from uel.delamination.blocks import Interface, Specimen
-from uel.delamination.cycled import Cycles, end_moments, flexure_deck, moments_deck, opening_deck, solid_deck
+from uel.delamination.cycled import (
+    Cycles,
+    bending_deck,
+    end_moments,
+    flexure_deck,
+    moments_deck,
+    opening_deck,
+    solid_deck,
+)
 from uel.delamination.flexure import SPAN
 from uel.delamination.materials import PLY_0, TABLE_2
 from uel.delamination.mesh import TwoArmMesh, crack_columns, two_arms
@@ -34,6 +42,10 @@ OPENING = 1.2
 """Displacement of each arm of the beam that is held apart (mm): 0.85 of G_c at first."""
 FORCE = 300.0
 """On the end-notched flexure (N)."""
+LEVER = 0.8744 * 0.5 * SPAN
+"""Length of the lever of mixed-mode bending (mm), for half of G in each mode by beam theory."""
+BENDING_LEVEL = 0.4
+"""G/G_c of mixed-mode bending at first."""
 CIRCLE_SIZE, CIRCLE_FINE, CIRCLE_JUMP = 1.0, 26.0, 0.05
 """Squares of the circular delamination (mm), up to where, and its DAMAGEJUMP."""
 
@@ -71,6 +83,8 @@ def fatigue_files() -> dict[str, str]:
     title = "Double cantilever beam held apart under cycles"
     files["dcb.inp"] = opening_deck(title, beams, OPENING, Cycles(1e6))
     files["enf.inp"] = flexure_deck("End-notched flexure under cycles of a force", flexure, FORCE, Cycles(2400.0))
+    title = "Mixed-mode bending under cycles of a force"
+    files["mmb.inp"] = bending_deck(title, flexure, LEVER, bending_force(flexure), Cycles(5500.0))
     files |= {"circle.inp": circle(), "bridged.inp": bridged_beam()}
     return files
 
@@ -96,6 +110,19 @@ def circle() -> str:
     return solid_deck(
         title, comment, plates, sets, ["PLANE_X, 1, 1", "PLANE_Y, 2, 2", "HELD, 3, 3"], forces, Cycles(2400.0)
     )
+
+
+def bending_force(specimen: Specimen) -> float:
+    """Return the force (N) on the lever for BENDING_LEVEL at the initial crack, by beam theory.
+
+    G_I = 3 (P a (3 c - L))^2/(4 b^2 h^3 L^2 E), G_II = 9 (P a (c + L))^2/(16 b^2 h^3 L^2 E), L half of the span (J.R.
+    Reeder and J.H. Crews, AIAA Journal 28 (1990) 1270).
+    """
+    half = 0.5 * SPAN
+    arm = specimen.top.e1 * specimen.width**2 * ARM_HEIGHT**3 * half**2
+    parts = 0.75 * (3.0 * LEVER - half) ** 2, 0.5625 * (LEVER + half) ** 2
+    wanted = BENDING_LEVEL * toughness(parts[1] / sum(parts))
+    return float(np.sqrt(wanted * arm / sum(parts)) / CRACK)
 
 
 def flexure_mesh() -> TwoArmMesh:

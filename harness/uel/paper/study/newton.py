@@ -22,6 +22,7 @@ from pathlib import Path
 
 import numpy as np
 
+from uel.delamination.flexure import lever
 from uel.delamination.kernels import formulations, uel_property, user_element
 from uel.delamination.keywords import integer_table, keyword, node_block, node_set, number, table, text, wrapped
 from uel.delamination.markdown import head, line
@@ -139,14 +140,9 @@ def _load(mesh: TwoArmMesh, name: str) -> list[str]:
             lines += node_set("MIDSPAN", top[middle : middle + 1])
             lines += ["*EQUATION", "2", *table([(high, 2, 1.0, low, 2, -1.0)])]
         else:
-            # a rigid lever with small rotations: a roller at mid-span, its end in the upper arm, the load beyond
-            arm, lever = 0.5 * LENGTH, int(top[-1]) + 1
-            ratio = arm / (arm + specimen.lever)
-            end = int(mesh.edge(0)[ROWS + 1 + ROWS // 2])
-            lines += ["*NODE", *table([[lever, arm + specimen.lever, 2.0 * ARM]])]
-            lines += node_set("MIDSPAN", np.array([lever]))
-            equation = (int(top[middle]), 2, 1.0, lever, 2, -ratio, end, 2, ratio - 1.0)
-            lines += ["*EQUATION", "3", *table([equation])]
+            node, end = int(top[-1]) + 1, int(mesh.edge(0)[ROWS + 1 + ROWS // 2])
+            lines += lever(node, (specimen.lever, 2.0 * ARM), int(top[middle]), end, 0.5 * LENGTH)
+            lines += node_set("MIDSPAN", np.array([node]))
         lines += ["*BOUNDARY", "LEFT, 2, 2", "RIGHT, 1, 2"]
         moved = [f"MIDSPAN, 2, 2, {number(-specimen.displacement)}"]
     energies = "ALLIE, ALLPD, ALLVD, ALLWK, ETOTAL"
