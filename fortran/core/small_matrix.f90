@@ -34,7 +34,7 @@ contains
     end select
   end subroutine add_product
 
-  !> The same with its sizes.
+  !> `add_product` with its sizes as values, which a call with constants makes known to the compiler.
   pure subroutine add_columns(n, m, terms, a, b, matrix)
     integer, value :: n, m, terms
     real(dp), intent(in) :: a(n, terms), b(m, terms)

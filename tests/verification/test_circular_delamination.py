@@ -97,7 +97,8 @@ def test_table_of_the_page(mesh: str) -> None:
     assert len(rows) >= 2
     for radius, load, closed in rows:
         assert closed == pytest.approx(literature.circle_load_with_rim(radius), abs=0.1)
-        assert load == pytest.approx(closed, rel=REQUIRED)
+        # as the page says
+        assert load == pytest.approx(closed, rel=0.02)
 
 
 @pytest.mark.long

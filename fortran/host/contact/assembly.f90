@@ -37,8 +37,8 @@ contains
     end do
   end subroutine find_runs
 
-  !> Add a row to the values. Rows of a node mostly have the same columns: each run is looked for where it was in the row before,
-  !> then behind the last one.
+  !> Add a row to the values; the pattern has all of its entries. Rows of a node mostly have the same columns: each run is looked
+  !> for where it was in the row before, then behind the last one.
   pure subroutine add_row(row, unknown, columns, first, last, offset, indptr, indices, values)
     real(dp), intent(in), contiguous :: row(:)
     integer(i4), intent(in) :: unknown                    !< of the row, from 0

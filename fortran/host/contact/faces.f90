@@ -115,7 +115,7 @@ contains
     end if
   end subroutine interpolate
 
-  !> The same with its sizes.
+  !> `interpolate` with its sizes as values, which a call with constants makes known to the compiler.
   pure subroutine sum_terms(along, terms, polynomial, natural, foot)
     integer, value :: along, terms
     real(dp), intent(in) :: polynomial(3, terms), natural(along)

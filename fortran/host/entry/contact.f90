@@ -26,7 +26,7 @@ subroutine host_contact_monomials(natural, values, first, second, along, terms, 
   end do
 end subroutine host_contact_monomials
 
-!> Half of the sizes of faces.
+!> Largest distances of the nodes of faces from their centroids.
 subroutine host_contact_sizes(nodes, coordinates, sizes, k, m, d, n)
   use host_kinds, only: dp, i4, i8
   use host_contact_faces, only: size_of

@@ -30,7 +30,7 @@ from uel.model.arrays import FloatArray
 from uel.solver.threads import one_blas_thread
 
 PASSES = 4
-"""Of an increment."""
+"""Passes in an increment."""
 
 LOWER, UPPER = (0.0, 1.3, 0.5, 0.0), (0.1, 1.1, 1.0, 0.5)
 """Plates: ends along x and y, top, bottom."""

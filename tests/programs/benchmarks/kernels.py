@@ -49,7 +49,7 @@ COPIES = 400
 SECONDS = 1.0
 """Time of the turns of a row."""
 DISPLACEMENT = 1e-5
-"""Of the nodes, at random; elements have edges of about 1."""
+"""Displacements of the nodes, at random; elements have edges of about 1."""
 
 PLAIN_QUAD = """\
 subroutine uel(rhs, amatrx, svars, energy, ndofel, nrhs, nsvars, props, nprops, coords, mcrd, nnode, u)
@@ -154,7 +154,7 @@ LAW = """\
 0.26,
 """
 CELLS = {"CPS4": "quad", "C3D20": "hexahedron20", "C3D20R": "hexahedron20", "S4R": "quad", "COH2D4": "quad"}
-"""Of built-in elements other than bricks of eight nodes."""
+"""Cells of built-in elements other than bricks of eight nodes."""
 SECTIONS = {"S4R": "SHELL SECTION", "COH2D4": "COHESIVE SECTION", "COH3D8": "COHESIVE SECTION"}
 
 

@@ -144,7 +144,7 @@ class _Deck:
 
 @dataclass(frozen=True, slots=True)
 class Balance:
-    """What is missing of the work at the end, over the work, and the largest fall of the load over the largest load."""
+    """Missing share of the work at the end, and the largest fall of the load over the largest load."""
 
     missing: float
     fall: float
