@@ -27,9 +27,11 @@ from uel.output import Result
 from uel.output.files.state_files import folder_of, read_state
 from uel.output.pictures.front import fronts
 from uel.paper.cycled_specimens import ETA, FATIGUE, LEVEL, RIGID, exponent, specimen, toughness
-from uel.paper.growth_measures import START, growth
+from uel.paper.growth_measures import REST, START, growth
+from uel.paper.study.paris import SHARES
 
 LAWS = {"U2": TABLE_2, "U4": RIGID}
+ROOT = Path(__file__).parents[2]
 STRENGTH, CYCLES = 30.0, 1e7
 """Of the interface in mode I (MPa); cycles of the endurance limit."""
 
@@ -273,6 +275,25 @@ def test_damage_of_an_overload_is_kept(tmp_path):
     relative = peak ** (power + 1.0) + (failure - onset) * (0.8 * peak / limit) ** power * count / CYCLES
     assert cycled == pytest.approx((relative ** (1.0 / (power + 1.0)) - onset) / (failure - onset), rel=1e-3)
     assert cycled > 1.05 * over
+
+
+@pytest.mark.parametrize(("name", "shear", "over"), [("dcb", 0.0, 1.023), ("enf", 1.0, 1.075), ("mmb", 0.485, 1.017)])
+def test_growth_over_the_line_of_the_moments(name, shear, over, tmp_path):
+    """A crack whose G changes grows as one of constant G does, but for that change along the process zone."""
+    page = (ROOT / "fortran" / "fatigue.md").read_text("utf-8")
+    steady = re.search(rf"^\| {LEVEL:g} \|(.*)\|$", page, re.MULTILINE)
+    rates = [float(cell) for cell in steady[1].split("|")]
+    line = np.exp(np.interp(shear, SHARES, np.log(rates)))
+    for file in (ROOT / "abaqus_inputs" / "fatigue").glob("[dem]*.inp"):
+        (tmp_path / file.name).write_text(file.read_text())
+    whole = growth(run(tmp_path / f"{name}.inp"))
+    release, rate = whole.between(START, whole.length[-1] - REST).line
+    there = rate > 0
+    steady_rate = line * (release[there] / (LEVEL * toughness(shear))) ** (exponent(shear) / 2.0)
+    found = float(np.mean(rate[there] / steady_rate))
+    assert found == pytest.approx(1.0, abs=0.1)
+    # regression
+    assert found == pytest.approx(over, abs=0.01)
 
 
 PLY = SolidPly("PLY_0", (1.2e5, 1.05e4, 1.05e4), (0.3, 0.3, 0.51), (5.52e3, 5.52e3, 3.48e3))
