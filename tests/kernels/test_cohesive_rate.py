@@ -11,32 +11,15 @@ import pytest
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 from space import nodes_of, opened
+from variants import ALPHA, LAWS, variants
 
 from uel.errors import KernelError
 
-ALPHA, BETA = 1e6, 5e4
-RIGID = {"CLOSURE": 3, "ALPHAN": 0.0, "ALPHAT": 0.0, "BETAN": BETA, "BETAT": BETA}
-STIFF = {"ALPHAN": ALPHA, "ALPHAT": ALPHA}
-VARIANTS = {
-    "U2": (2, STIFF),
-    "U4 rigid": (4, RIGID),
-    "U4 incomplete": (4, RIGID | STIFF | {"CLOSURE": 1}),
-    "U4 paper": (4, RIGID | STIFF | {"CLOSURE": 2}),
-    "U7": (7, STIFF),
-    "U8 rigid": (8, RIGID),
-    "U11": (11, STIFF),
-    "U12 rigid": (12, RIGID),
-}
+BETA = 5e4
+VARIANTS = variants(BETA, "U4 paper", "U11", "U12 rigid")
 JUMP = ("U2", "U4 paper", "U7", "U11")
 """Their damage is that of the displacement jump, whose rate a test can choose."""
 CONSISTENT = tuple(variant for variant in VARIANTS if variant not in JUMP)
-LAWS = {
-    "linear criterion": {"LAW": 1},
-    "Benzeggagh-Kenane": {"LAW": 2, "ETA": 2.284},
-    "exponential": {"LAW": 3, "ETA": 1.45},
-    "bridging": {"LAW": 5, "SIGMABRIDGE": 3.0, "GIBRIDGE": 0.1},
-    "table": {"LAW": 6, "SEPARATION1": 0.4, "TRACTION1": 0.5},
-}
 VALUES = {"SIGMAMAX": 30.0, "TAUMAX": 60.0, "GIC": 0.26, "GIIC": 1.002}
 BRIDGES = {"SIGMABRIDGE": 3.0, "GIBRIDGE": 0.1}
 RATES = {"RATEREFERENCE": 0.02, "RATELIMIT": 100.0, "STRENGTHRATE": 0.1, "TOUGHNESSRATE": 0.15}
@@ -364,33 +347,37 @@ def test_energies_are_the_work(make, variant, law, slower):
     assert errors[2] < 0.15 * errors[0] or errors[2] < 1e-5
 
 
-@pytest.mark.parametrize("shear", SHARES)
-@pytest.mark.parametrize("variant", JUMP)
-def test_a_stop(make, variant, shear):
-    """The traction falls to that of slow separations, and half of the difference times the separation is dissipated."""
+def stopped(make, variant, shear, last, duration):
+    """A point that was fast up to 0.006 goes on to a last separation; half of the traction that it loses times 0.006.
+
+    Returns the element, that energy, and what it dissipates in the last increment.
+    """
     item, gap = make(variant, shear), 0.006
     for share in np.linspace(0, 1, 20)[1:]:
         item.advance(share * gap, 1e-4)
-    fast, before = item.traction, item.dissipated
-    item.advance(gap, 1e-4)
-    slow = envelope(gap, 0.0, shear, variant)
-    assert item.traction == pytest.approx(slow, rel=1e-10)
-    assert item.dissipated - before == pytest.approx(0.5 * (fast - slow) * gap, rel=1e-9)
+    lost, before = 0.5 * (item.traction - envelope(gap, 0.0, shear, variant)) * gap, item.dissipated
+    item.advance(last, duration)
+    return item, lost, item.dissipated - before
+
+
+@pytest.mark.parametrize("shear", SHARES)
+@pytest.mark.parametrize("variant", JUMP)
+def test_a_stop(make, variant, shear):
+    """The traction falls to that of slow separations."""
+    item, lost, dissipated = stopped(make, variant, shear, 0.006, 1e-4)
+    assert item.traction == pytest.approx(envelope(0.006, 0.0, shear, variant), rel=1e-10)
+    assert dissipated == pytest.approx(lost, rel=1e-9)
 
 
 @pytest.mark.parametrize("shear", SHARES)
 @pytest.mark.parametrize("variant", JUMP)
 def test_a_stop_before_failure(make, variant, shear):
-    """In one increment: half of the difference times the separation, and what slow separations dissipate from there."""
-    item, gap = make(variant, shear), 0.006
-    for share in np.linspace(0, 1, 20)[1:]:
-        item.advance(share * gap, 1e-4)
-    fast, before = item.traction, item.dissipated
-    item.advance(0.1, 1e12)
+    """In one increment: what it loses, and what slow separations dissipate from there."""
+    item, lost, dissipated = stopped(make, variant, shear, 0.1, 1e12)
     top, slope = line_at(0.0, shear, variant)
-    slow = top - slope * gap
+    slow = top - slope * 0.006
     assert item.item.state["DAMAGE"][0] == 1.0
-    assert item.dissipated - before == pytest.approx(0.5 * (fast - slow) * gap + 0.5 * slow * top / slope, rel=1e-9)
+    assert dissipated == pytest.approx(lost + 0.5 * slow * top / slope, rel=1e-9)
 
 
 @pytest.mark.parametrize("shear", SHARES)

@@ -5,25 +5,11 @@
 import numpy as np
 import pytest
 from space import nodes_of, opened
+from variants import LAWS, variants
 
 from uel.errors import KernelError
 
-RIGID = {"CLOSURE": 3, "ALPHAN": 0.0, "ALPHAT": 0.0, "BETAN": 2e5, "BETAT": 2e5}
-STIFF = {"ALPHAN": 1e6, "ALPHAT": 1e6}
-VARIANTS = {
-    "U2": (2, STIFF),
-    "U4 rigid": (4, RIGID),
-    "U4 incomplete": (4, RIGID | STIFF | {"CLOSURE": 1}),
-    "U7": (7, STIFF),
-    "U8 rigid": (8, RIGID),
-}
-LAWS = {
-    "linear criterion": {"LAW": 1},
-    "Benzeggagh-Kenane": {"LAW": 2, "ETA": 2.284},
-    "exponential": {"LAW": 3, "ETA": 1.45},
-    "bridging": {"LAW": 5, "SIGMABRIDGE": 3.0, "GIBRIDGE": 0.1},
-    "table": {"LAW": 6, "SEPARATION1": 0.4, "TRACTION1": 0.5},
-}
+VARIANTS = variants(2e5)
 TABLE = {
     "TEMPERATURE1": 20.0,
     "TEMPERATURE2": 80.0,

@@ -9,21 +9,14 @@ import numpy as np
 import pytest
 from solid_pairs import OWNING, corners_of, geometry
 from space import nodes_of, opened
+from variants import STIFF, rigid, variants
 
 from uel.errors import KernelError
 from uel.usersub.layout import element_layouts
 
 CYCLES, LESS_IN_SHEAR = 1e7, 0.42
-RIGID = {"CLOSURE": 3, "ALPHAN": 0.0, "ALPHAT": 0.0, "BETAN": 5e4, "BETAT": 5e4}
-STIFF = {"ALPHAN": 1e6, "ALPHAT": 1e6}
-VARIANTS = {
-    "U2": (2, STIFF),
-    "U4 rigid": (4, RIGID),
-    "U4 incomplete": (4, RIGID | STIFF | {"CLOSURE": 1}),
-    "U4 paper": (4, RIGID | STIFF | {"CLOSURE": 2}),
-    "U7": (7, STIFF),
-    "U8 rigid": (8, RIGID),
-}
+RIGID = rigid(5e4)
+VARIANTS = variants(5e4, "U4 paper")
 # friction and viscosity beside it
 RUBBED = {"U4 rubbed": (4, RIGID | {"FRICTION": 0.3}), "U8 viscous": (8, RIGID | {"FRICTION": 0.3, "VISCOSITY": 0.1})}
 # damage by the displacement jump, which is the separation in the standard elements

@@ -97,6 +97,11 @@ def lever(node: int, loads: tuple[float, float], roller: int, end: int, half: fl
         Half of the span (mm).
     """
     length, height = loads
-    ratio = half / (half + length)
     lines = ["*NODE", *table([[node, half + length, height]])]
-    return [*lines, "*EQUATION", "3", *table([(roller, 2, 1.0, node, 2, -ratio, end, 2, ratio - 1.0)])]
+    return [*lines, "*EQUATION", *lever_rows((roller, node, end), 2, half / (half + length))]
+
+
+def lever_rows(nodes: tuple[int, int, int], dof: int, ratio: float) -> list[str]:
+    """Write the data lines of *EQUATION of a lever: roller, loaded and held end; ratio: arm of the roller over all."""
+    roller, loaded, held = nodes
+    return ["3", *table([(roller, dof, 1.0, loaded, dof, -ratio, held, dof, ratio - 1.0)])]

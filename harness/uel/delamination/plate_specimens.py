@@ -15,6 +15,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from uel.delamination.flexure import lever_rows
 from uel.delamination.keywords import node_set, number, table
 from uel.delamination.plates import Laminate, mesh_blocks, property_blocks
 from uel.delamination.steps import Output, static_step
@@ -101,8 +102,7 @@ def mmb_deck(
     boundary = ["LEFT, 3, 3", "RIGHT, 1, 1", "RIGHT, 3, 3", *boundary, f"LEVER, 3, 3, {number(-displacement)}"]
     equations = _equal(end[1:], np.full(len(end) - 1, end[0]))
     for roller in top[-1, :, middle].tolist():
-        ratio = half / (half + lever)
-        equations += ["3", *table([(roller, 3, 1.0, node, 3, -ratio, int(end[0]), 3, ratio - 1.0)])]
+        equations += lever_rows((roller, node, int(end[0])), 3, half / (half + lever))
     position = [half + lever, float(np.mean(mesh.y)), float(mesh.upper[-1])]
     comment = "a rigid lever pushes mid-span down and pulls the upper arm's left end up"
     extra = ["*NODE", *table([[node, *position]])]

@@ -48,6 +48,12 @@ LAWS: Mapping[str, Mapping[str, float]] = {
 }
 """Strengths, fracture energies, exponent of Benzeggagh and Kenane, and stiffness."""
 
+# directions (two lines), material
+_PLY = [
+    *("*ORIENTATION, NAME=ALONG", "1., 0., 0., 0., 1., 0.", "*MATERIAL, NAME=PLY"),
+    *("*ELASTIC, TYPE=ENGINEERING CONSTANTS", *wrapped([*MODULI, *RATIOS, *SHEAR])),
+]
+
 
 def mesh(size: float = SIZE, rows: int = ROWS) -> TwoArmMesh:
     """Mesh the beam with elements of `size` (mm) from the crack on."""
@@ -66,8 +72,7 @@ def bridged_beam(size: float = SIZE, rows: int = ROWS, quads: str = "CPE4I", *, 
     lines += [keyword("ELEMENT", TYPE=quads, ELSET="QUADS")]
     lines += integer_table(np.concatenate([grid.quads("lower"), grid.quads("upper")])).splitlines()
     lines += ["*SOLID SECTION, ELSET=QUADS, MATERIAL=PLY, ORIENTATION=ALONG", "1."]
-    lines += ["*ORIENTATION, NAME=ALONG", "1., 0., 0., 0., 1., 0.", "*MATERIAL, NAME=PLY"]
-    lines += ["*ELASTIC, TYPE=ENGINEERING CONSTANTS", *wrapped([*MODULI, *RATIOS, *SHEAR]), *user_element(2)]
+    lines += [*_PLY, *user_element(2)]
     faces = grid.interface4()[:, 1:]
     for k, (name, law) in enumerate(LAWS.items()):
         lines += element_block("U2", name, faces, int(grid.interface_labels[0]) + k * grid.stride)
@@ -103,8 +108,7 @@ def bridged_shells(shells: int = 6, across: int = 2) -> str:
         lines += element_block("U7", name, faces, 1 + len(arms) + k * len(faces))
         lines += uel_property(7, name, {"LAW": 2, **law})
     lines += ["*SHELL SECTION, ELSET=ARMS, MATERIAL=PLY, ORIENTATION=ALONG, STACK DIRECTION=3"]
-    lines += [f"{number(HEIGHT / shells)}, 5", "*ORIENTATION, NAME=ALONG", "1., 0., 0., 0., 1., 0.", "3, 0."]
-    lines += ["*MATERIAL, NAME=PLY", "*ELASTIC, TYPE=ENGINEERING CONSTANTS", *wrapped([*MODULI, *RATIOS, *SHEAR])]
+    lines += [f"{number(HEIGHT / shells)}, 5", *_PLY[:2], "3, 0.", *_PLY[2:]]
     for name, face in (("TOP", grid.labels[1][-1]), ("BOTTOM", grid.labels[0][0])):
         lines += node_set(name, face[:, 0])
     opening = number(0.5 * OPENING)

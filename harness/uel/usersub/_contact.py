@@ -221,13 +221,7 @@ def means(
     gradients, shares = np.zeros((*shape, coordinates.shape[1])), np.zeros(shape)
     if len(pairs[0]):
         host.host_contact_means(
-            pieces.shapes.T,
-            pieces.loads.T,
-            pieces.nodes.T,
-            coordinates.T,
-            samples.own.T,
-            samples.piece,
-            samples.natural.T,
+            *_of_samples(pieces, coordinates, samples),
             *pairs,
             positions.T,
             gradients.T,
@@ -262,13 +256,7 @@ def add_stiffness(
     first, equations = groups
     if len(equations):
         host.host_contact_samples_stiffness(
-            pieces.shapes.T,
-            pieces.loads.T,
-            pieces.nodes.T,
-            coordinates.T,
-            samples.own.T,
-            samples.piece,
-            samples.natural.T,
+            *_of_samples(pieces, coordinates, samples),
             gap,
             normal_force,
             friction.T,
@@ -276,3 +264,12 @@ def add_stiffness(
             equations.T,
             *matrix,
         )
+
+
+_OfSamples = tuple[FloatArray, FloatArray, IntArray, FloatArray, FloatArray, IntArray, FloatArray]
+
+
+def _of_samples(pieces: Pieces, coordinates: FloatArray, samples: Samples) -> _OfSamples:
+    """Return the arguments that say where samples are."""
+    of_faces = pieces.shapes.T, pieces.loads.T, pieces.nodes.T, coordinates.T
+    return *of_faces, samples.own.T, samples.piece, samples.natural.T

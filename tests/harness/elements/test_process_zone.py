@@ -276,7 +276,7 @@ def test_an_initial_crack_does_not_fail(kind: str, tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("angle", [30.0, 90.0])
 def test_element_takes_the_modulus_across(angle: float, tmp_path: Path) -> None:
-    """Of axis 1 at 90 degrees less the angle from the normal; no contraction.
+    """The modulus is that of axis 1 at 90 degrees less the angle from the normal; no contraction.
 
     It fails in its first increment: in shorter ones the shear of the ply before onset has a part, 0.3 % of the energy.
     """

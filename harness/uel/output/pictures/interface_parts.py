@@ -42,9 +42,13 @@ def parts(faces: IntArray, nodes: int) -> list[NDArray[np.bool_]]:
 def _layers(faces: IntArray) -> IntArray:
     """Return how many elements before each one (m,) have the same nodes."""
     _, same = np.unique(np.sort(faces, axis=1), axis=0, return_inverse=True)
-    same = same.ravel()
-    order = np.argsort(same, kind="stable")
-    starts = np.flatnonzero(np.diff(same[order], prepend=-1))
-    layers = np.empty(len(faces), dtype=np.int64)
-    layers[order] = np.arange(len(faces)) - np.repeat(starts, np.diff(np.append(starts, len(faces))))
-    return layers
+    return occurrences(same.ravel())
+
+
+def occurrences(numbers: IntArray) -> IntArray:
+    """Return how many equal numbers come before each one (m,)."""
+    order = np.argsort(numbers, kind="stable")
+    starts = np.flatnonzero(np.diff(numbers[order], prepend=numbers[order[:1]] - 1))
+    before = np.empty(len(numbers), dtype=np.int64)
+    before[order] = np.arange(len(numbers)) - np.repeat(starts, np.diff(np.append(starts, len(numbers))))
+    return before

@@ -16,7 +16,7 @@ from uel.model.arrays import FloatArray, IntArray
 from uel.model.face_directions import face_directions
 from uel.model.face_shapes import natural_gradients, shape_functions
 from uel.output.files.interface import DIRECTIONS
-from uel.output.pictures.interface_parts import parts
+from uel.output.pictures.interface_parts import occurrences, parts
 from uel.output.pictures.triangles import TriangulatedSurface
 
 CORNERS: Final = {"triangle": 3, "triangle6": 3, "quad": 4, "quad8": 4}
@@ -211,12 +211,7 @@ def interface_surfaces(mesh: meshio.Mesh) -> list[InterfaceSurface]:
 
 def _keys(labels: IntArray) -> IntArray:
     """Return keys (m,) of labels: the label and how many of the same one come before."""
-    order = np.argsort(labels, kind="stable")
-    starts = np.flatnonzero(np.diff(labels[order], prepend=labels[order[:1]] - 1))
-    keys = np.empty(len(labels), dtype=np.int64)
-    runs = np.diff(np.append(starts, len(labels)))
-    keys[order] = labels[order] * OCCURRENCES + np.arange(len(labels)) - np.repeat(starts, runs)
-    return keys
+    return labels * OCCURRENCES + occurrences(labels)
 
 
 def _in_order(profile: Mapping[str, FloatArray]) -> tuple[IntArray, IntArray]:
