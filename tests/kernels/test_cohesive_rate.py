@@ -10,8 +10,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
-from space import nodes_of, opened
-from variants import ALPHA, LAWS, variants
+from variants import ALPHA, LAWS, nodes_and_unit, variants
 
 from uel.errors import KernelError
 
@@ -57,15 +56,7 @@ class Opened:
 
     def __init__(self, element, interface, variant, shear=0.0, **values):
         jtype, given = VARIANTS[variant]
-        parts = np.sqrt([shear, 1 - shear])
-        if jtype > 4:
-            nodes, axes = nodes_of(jtype, "flat"), np.array([[0.6, 0.8, 0.0], [0.0, 0.0, 1.0]])
-            self.unit = np.ravel(opened(jtype, parts @ axes, 0))
-        else:
-            nodes = interface.four if jtype == 2 else interface.eight
-            unit = np.zeros(nodes.shape)
-            unit[len(nodes) // 2 :] = parts @ interface.axes
-            self.unit = unit.ravel()
+        nodes, self.unit = nodes_and_unit(jtype, interface, shear)
         self.item = element(jtype, nodes, **{"LAW": 2, "ETA": ETA} | given | RATES | values)
         self.jump = variant in JUMP
         self.work = self.force = 0.0

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from solid_pairs import OWNING, corners_of, geometry
 from space import nodes_of, opened
-from variants import STIFF, rigid, variants
+from variants import STIFF, nodes_and_unit, rigid, variants
 
 from uel.errors import KernelError
 from uel.usersub.layout import element_layouts
@@ -53,15 +53,7 @@ class Cycled:
 
     def __init__(self, element, interface, variant, shear, **values):
         jtype, given = VARIANTS[variant]
-        parts = np.sqrt([shear, 1 - shear])
-        if jtype in (7, 8):
-            nodes, axes = nodes_of(jtype, "flat"), np.array([[0.6, 0.8, 0.0], [0.0, 0.0, 1.0]])
-            self.unit = np.ravel(opened(jtype, parts @ axes, 0))
-        else:
-            nodes = interface.four if jtype == 2 else interface.eight
-            unit = np.zeros(nodes.shape)
-            unit[len(nodes) // 2 :] = parts @ interface.axes
-            self.unit = unit.ravel()
+        nodes, self.unit = nodes_and_unit(jtype, interface, shear)
         options = {"LAW": 2, "ETA": ETA, "FATIGUE": 1, "DAMAGEJUMP": 0.9, "LOADRATIO": 0.1}
         self.item = element(jtype, nodes, **options | given | values)
         rhs, _ = self.item.advance(1e-7 * self.unit, dtime=0.0)

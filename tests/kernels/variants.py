@@ -2,6 +2,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Interface elements of each closure, and laws, for the tests of what strengths and toughnesses depend on."""
 
+import numpy as np
+from space import nodes_of, opened
+
 ALPHA = 1e6
 """Stiffness of the elements that have one."""
 STIFF = {"ALPHAN": ALPHA, "ALPHAT": ALPHA}
@@ -34,3 +37,15 @@ def variants(beta, *further):
         "U12 rigid": (12, rigid(beta)),
     }
     return found | {name: others[name] for name in further}
+
+
+def nodes_and_unit(jtype, interface, shear):
+    """Nodes of an element, and displacements that separate its points by 1, with a share of mode II in the energy."""
+    parts = np.sqrt([shear, 1 - shear])
+    if jtype > 4:
+        axes = np.array([[0.6, 0.8, 0.0], [0.0, 0.0, 1.0]])
+        return nodes_of(jtype, "flat"), np.ravel(opened(jtype, parts @ axes, 0))
+    nodes = interface.four if jtype == 2 else interface.eight
+    unit = np.zeros(nodes.shape)
+    unit[len(nodes) // 2 :] = parts @ interface.axes
+    return nodes, unit.ravel()
